@@ -1,0 +1,20 @@
+# Every dependency, found here and nowhere else. The Debian packages are listed in packages.txt.
+find_package(OpenMP REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+# Debian's CMake files of OpenImageIO also demand its tools and OpenCV's headers; pkg-config asks for neither.
+find_package(PkgConfig REQUIRED)
+find_package(Imath REQUIRED)
+pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
+find_package(embree 3 REQUIRED)
+find_package(assimp REQUIRED)
+find_package(NLopt REQUIRED NAMES NLopt PATH_SUFFIXES cmake/nlopt_cxx nlopt_cxx)
+
+# Optional ones: what is off is named by cmake/summary.cmake.
+find_package(GTest QUIET)
+find_package(rapidcheck QUIET)
+find_package(benchmark QUIET)

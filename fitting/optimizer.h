@@ -1,0 +1,82 @@
+// What every optimiser shares. All of them minimise over the unit box [0, 1]^n and evaluate batches
+// of candidates, so that one place counts, logs, replays, parallelises and stops.
+#pragma once
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/random.h"
+
+namespace espalier {
+
+/// A function to minimise over [0, 1]^dimension.
+class Objective {
+ public:
+  virtual ~Objective() = default;
+  virtual std::size_t dimension() const = 0;
+  /// points: row-major, values.size() rows of dimension() coordinates in [0, 1]. Finite values out.
+  /// Rows may be computed in parallel; value i depends on row i only.
+  virtual void evaluate(std::span<const double> points, std::span<double> values) const = 0;
+};
+
+struct Budget {
+  long evaluations = 5000;                                   ///< true evaluations; at least 1
+  double target = -std::numeric_limits<double>::infinity();  ///< stop once a value is at or below it
+};
+
+/// Sees every batch in order, decides on early stops (time, Ctrl-C). Observers only log.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// first_evaluation: how many evaluations came before this batch.
+  virtual void on_batch(long first_evaluation, std::span<const double> points,
+                        std::span<const double> values) {
+    (void)first_evaluation, (void)points, (void)values;
+  }
+  /// Asked before each batch; true ends the run there.
+  virtual bool stop_requested() { return false; }
+};
+
+enum class StopReason { budget, target, observer, converged };
+
+struct MinimizeResult {
+  std::vector<double> best_point;
+  double best_value = std::numeric_limits<double>::infinity();
+  long evaluations = 0;
+  StopReason stopped_by = StopReason::budget;
+};
+
+/// Settings of an optimiser by name: numbers only; unknown names are InputErrors that list the known ones.
+using OptimizerSettings = std::map<std::string, double>;
+
+struct SettingInfo {
+  std::string name;
+  double default_value, lower, upper;
+  std::string help;
+};
+
+class Optimizer {
+ public:
+  virtual ~Optimizer() = default;
+  virtual std::string name() const = 0;
+  virtual std::string help() const = 0;  ///< one line: method and source
+  virtual std::vector<SettingInfo> settings() const { return {}; }
+  /// Throws InputError where budget, start or settings do not suit the method, before any evaluation.
+  /// start: points to begin from, rows of dimension coordinates, possibly none.
+  /// The same (objective, settings, budget, start, seed) gives the same bits, whatever the threads.
+  virtual MinimizeResult minimize(const Objective& objective, const OptimizerSettings& settings,
+                                  const Budget& budget, std::span<const double> start, Seed seed,
+                                  Observer& observer) const = 0;
+};
+
+/// All optimisers, in the order of the help: random_search, hewitt_ga, ga, cma_es, then NLopt's names.
+const std::vector<std::unique_ptr<Optimizer>>& all_optimizers();
+
+/// Throws InputError naming the closest optimiser where there is none of this name.
+const Optimizer& optimizer_by_name(const std::string& name);
+
+}  // namespace espalier

@@ -1,0 +1,14 @@
+// The subcommands of the program, one file each (command_<name>.cpp).
+// A command adds itself to the CLI::App and does its work in the subcommand's callback.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace espalier {
+
+/// Parses the arguments, runs the command, prints errors. Returns the exit code: 0, 1 (our failure), 2 (bad input).
+int run_program(int argc, const char* const* argv);
+
+}  // namespace espalier

@@ -1,0 +1,46 @@
+// The program: its subcommands, and the one place where errors become messages and exit codes.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <algorithm>
+#include <exception>
+#include <string>
+
+#include "app/commands.h"
+#include "core/error.h"
+
+namespace espalier {
+
+namespace {
+
+/// One line whatever the message holds, so that scripts can read it.
+void print_error(std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  fmt::print(stderr, "espalier: {}\n", message);
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv) {
+  CLI::App app{"Espalier fits tree models to pictures.", "espalier"};
+  app.require_subcommand(1);
+  // Commands, in the order of the help.
+  try {
+    app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::Success& done) {
+    return app.exit(done);
+  } catch (const CLI::ParseError& error) {
+    print_error(fmt::format("{} (try: espalier --help)", error.what()));
+    return 2;
+  } catch (const InputError& error) {
+    print_error(error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    print_error(fmt::format("internal error: {}", error.what()));
+    return 1;
+  }
+}
+
+}  // namespace espalier

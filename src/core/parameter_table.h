@@ -1,0 +1,58 @@
+// The parameter table of a model: one row a parameter. Reading presets, validation, the search
+// space, the command line and the docs are all made from it (DESIGN.md, idea 1).
+// A parameter with a value at each level of branching has one row a level: "curve_v[2]".
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace espalier {
+
+enum class Scale { linear, logarithmic, integer, choice };
+
+/// What a negative value means where the sign is a flag and not a magnitude.
+enum class SignMeaning { number, flag };
+
+struct ParameterInfo {
+  std::string name;                           ///< without the level: "curve_v"
+  int level = -1;                             ///< level of branching 0..3, or -1 for the whole plant
+  std::string unit;                           ///< "m", "deg", "1" for ratios and counts
+  double lower = 0, upper = 1;                ///< valid values, both ends included
+  double search_lower = 0, search_upper = 1;  ///< where a search looks unless told otherwise
+  Scale scale = Scale::linear;
+  SignMeaning sign = SignMeaning::number;
+  double default_value = 0;
+  bool free_by_default = false;      ///< part of the default search space
+  std::vector<std::string> choices;  ///< names of choices; the value of choice i is first_choice + i
+  int first_choice = 0;
+  std::string symbol;  ///< the paper's name, where it has another one
+  std::string help;    ///< one line
+
+  /// "curve_v[2]", or "g_scale" where there is no level.
+  std::string full_name() const;
+};
+
+/// One value per row of the table, in its order. Whole numbers are stored as doubles.
+using ParameterValues = std::vector<double>;
+
+struct ParameterTable {
+  std::string model;  ///< "weber_penn"
+  std::vector<ParameterInfo> rows;
+
+  std::optional<std::size_t> find(std::string_view full_name) const;
+  /// The row index; throws InputError naming the closest known parameter where there is none.
+  std::size_t index_of(std::string_view full_name) const;
+  ParameterValues defaults() const;
+};
+
+/// Throws InputError unless `value` is finite, whole where it must be, and inside the bounds.
+/// `where` opens the message: a file and line, or the command-line option.
+void check_value(const ParameterInfo& row, double value, std::string_view where);
+
+/// The name in `known` with the smallest edit distance to `name`, for messages.
+std::string closest_name(std::string_view name, std::span<const std::string> known);
+
+}  // namespace espalier

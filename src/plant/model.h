@@ -1,0 +1,50 @@
+// A model: a parameter table and a pure function from (values, seed) to a plant (DESIGN.md, idea 1).
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "core/parameter_table.h"
+#include "core/random.h"
+#include "plant/plant.h"
+
+namespace espalier {
+
+class Volume;  // environment/volume.h
+
+/// How large a plant may get. A candidate beyond it is refused before it is grown.
+struct GrowthBudget {
+  double max_stems = 500'000;
+  double max_leaves = 3'000'000;
+};
+
+struct GrowthSettings {
+  GrowthBudget budget;
+  const Volume* prune_to = nullptr;  ///< replaces the parametric pruning envelope; not owned
+};
+
+/// How large the plant of these values is expected to get, without growing it.
+struct GrowthEstimate {
+  double stems = 0, leaves = 0;
+};
+
+/// Grown, or refused with the factor by which the worst of stems and leaves exceeds its budget.
+struct GrowthResult {
+  bool grown = true;
+  double over_budget_factor = 0;  ///< > 1 where refused
+};
+
+class Model {
+ public:
+  virtual ~Model() = default;
+  virtual const ParameterTable& table() const = 0;
+  virtual GrowthEstimate estimate(std::span<const double> values) const = 0;
+  /// Grows into `plant`, whose memory is reused. `values` follow table(); they must be valid.
+  virtual GrowthResult generate(std::span<const double> values, Seed seed, const GrowthSettings& settings,
+                                Plant& plant) const = 0;
+};
+
+/// The model with this name ("weber_penn"); throws InputError listing the models there are.
+const Model& model_by_name(const std::string& name);
+
+}  // namespace espalier

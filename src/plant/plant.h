@@ -1,0 +1,62 @@
+// A grown plant: stems and leaves as plain arrays, reused from one plant to the next.
+// Metres, z up, base of the first trunk near the origin. A stem is a cubic Bézier spline with a
+// radius at each knot; how finely it is flattened is chosen by whoever draws or meshes it.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/vec3.h"
+
+namespace espalier {
+
+enum class LeafKind : std::uint8_t { leaf, blossom };
+
+struct Stems {
+  std::vector<std::uint32_t>
+      first_knot;  ///< stems + 1 entries: stem s owns knots [first_knot[s], first_knot[s+1])
+  std::vector<std::int32_t>
+      parent;  ///< index of the parent stem, -1 for a trunk; a clone has its original's parent
+  std::vector<std::uint8_t> level;      ///< 0 for trunks
+  std::vector<std::uint64_t> path_key;  ///< the key of its random numbers: the same stem in another plant
+
+  std::size_t size() const { return level.size(); }
+};
+
+struct Knots {
+  std::vector<Vec3> point_m, handle_in_m, handle_out_m;  ///< absolute positions
+  std::vector<float> radius_m;
+
+  std::size_t size() const { return radius_m.size(); }
+};
+
+/// A leaf is its kind's outline (plant/leaf_outlines.h) at unit size, scaled and placed:
+/// world = position + side·(x·width) + axis·(y·length) + normal·(z·length), normal = side × axis.
+struct Leaves {
+  std::vector<Vec3> position_m;          ///< where the stalk is fixed to the stem
+  std::vector<Vec3> axis, side;          ///< unit vectors: along the leaf, across it
+  std::vector<float> length_m, width_m;  ///< scale of the unit outline along axis and side
+  std::vector<LeafKind> kind;
+
+  std::size_t size() const { return length_m.size(); }
+};
+
+struct Plant {
+  Stems stems;
+  Knots knots;
+  Leaves leaves;
+  int leaf_shape = 8;      ///< 1..10, see leaf_outlines.h (0 is drawn as 8, elliptic)
+  int blossom_shape = 1;   ///< 1..3
+  float tree_scale_m = 0;  ///< nominal height drawn for the first trunk
+
+  void clear();  ///< empties all arrays, keeps their memory
+};
+
+struct Bounds {
+  Vec3 lower, upper;
+};
+
+/// The box around all stem surfaces and leaf polygons, in metres; zero-sized at the origin for an empty
+/// plant.
+Bounds bounds(const Plant& plant);
+
+}  // namespace espalier

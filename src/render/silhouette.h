@@ -1,0 +1,22 @@
+// One silhouette rule: a pixel is set where the ray through its centre meets the plant.
+// Renderers of that rule share this interface; the fit knows no more of them.
+#pragma once
+#include <memory>
+
+#include "image/mask.h"
+#include "plant/plant.h"
+#include "render/camera.h"
+
+namespace espalier {
+
+class SilhouetteRenderer {
+ public:
+  virtual ~SilhouetteRenderer() = default;
+  /// Draws `plant` into `mask`, which gets the camera's size. Not thread-safe: one renderer a thread.
+  virtual void draw(const Plant& plant, const Camera& camera, Mask& mask) = 0;
+};
+
+/// The reference: traces rays with Embree 3 (round Bézier curves for stems, triangles for leaves).
+std::unique_ptr<SilhouetteRenderer> make_embree_renderer();
+
+}  // namespace espalier
