@@ -12,7 +12,9 @@ find_package(Imath REQUIRED)
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
 find_package(embree 3 REQUIRED)
 find_package(assimp REQUIRED)
-find_package(NLopt REQUIRED NAMES NLopt PATH_SUFFIXES cmake/nlopt_cxx nlopt_cxx)
+# Two Debian packages share the name NLopt; the C++ build holds every algorithm, AGS too.
+set(NLopt_DIR /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/nlopt_cxx CACHE PATH "NLopt built with its C++ algorithms")
+find_package(NLopt REQUIRED)
 
 # Optional ones: what is off is named by cmake/summary.cmake.
 find_package(GTest QUIET)
