@@ -2,7 +2,6 @@
 #pragma once
 #include <cstddef>
 #include <span>
-#include <string>
 
 #include "core/parameter_table.h"
 #include "core/random.h"
@@ -43,8 +42,5 @@ class Model {
   virtual GrowthResult generate(std::span<const double> values, Seed seed, const GrowthSettings& settings,
                                 Plant& plant) const = 0;
 };
-
-/// The model with this name ("weber_penn"); throws InputError listing the models there are.
-const Model& model_by_name(const std::string& name);
 
 }  // namespace espalier

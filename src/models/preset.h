@@ -1,0 +1,28 @@
+// Presets: parameter values of a model as TOML, bundled (by name) or the user's (by path).
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/parameter_table.h"
+
+namespace espalier {
+
+struct Preset {
+  std::string name;         ///< "quaking_aspen", or the file's stem
+  std::string description;  ///< one line, may be empty
+  std::string model;        ///< "weber_penn"
+  ParameterValues values;   ///< in the order of the model's table
+};
+
+/// Names of the bundled presets, sorted.
+std::vector<std::string> bundled_presets();
+
+/// A bundled preset by name, or any preset by path. `extends` is followed. Throws InputError with
+/// file, line, key, got and expected for unknown keys, wrong types and values outside their bounds.
+Preset load_preset(const std::string& name_or_path);
+
+/// The preset as TOML that load_preset reads back to the same bits.
+std::string preset_to_toml(const Preset& preset);
+
+}  // namespace espalier
