@@ -1,0 +1,83 @@
+#include "core/parameter_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.h"
+
+namespace espalier {
+
+namespace {
+
+/// Levenshtein's distance: the fewest single letters to insert, delete or replace.
+std::size_t edit_distance(std::string_view from, std::string_view to) {
+  std::vector<std::size_t> row(to.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < to.size(); ++j) {
+      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+bool is_whole(const ParameterInfo& row) { return row.scale == Scale::integer || row.scale == Scale::choice; }
+
+std::string describe_choices(const ParameterInfo& row) {
+  std::string names;
+  for (const std::string& choice : row.choices) names += (names.empty() ? "" : ", ") + choice;
+  return fmt::format("one of {} (or {}..{})", names, row.lower, row.upper);
+}
+
+}  // namespace
+
+std::string ParameterInfo::full_name() const { return level < 0 ? name : fmt::format("{}[{}]", name, level); }
+
+std::optional<std::size_t> ParameterTable::find(std::string_view full_name) const {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].full_name() == full_name) return i;
+  return std::nullopt;
+}
+
+std::size_t ParameterTable::index_of(std::string_view full_name) const {
+  if (const auto index = find(full_name)) return *index;
+  std::vector<std::string> known;
+  for (const ParameterInfo& row : rows) known.push_back(row.full_name());
+  throw_input_error("unknown parameter '{}' of model {}, closest is '{}'", full_name, model,
+                    closest_name(full_name, known));
+}
+
+ParameterValues ParameterTable::defaults() const {
+  ParameterValues values;
+  for (const ParameterInfo& row : rows) values.push_back(row.default_value);
+  return values;
+}
+
+std::string describe_valid_values(const ParameterInfo& row) {
+  if (row.scale == Scale::choice && !row.choices.empty()) return describe_choices(row);
+  return fmt::format("a {} {}..{}", is_whole(row) ? "whole number" : "number", row.lower, row.upper);
+}
+
+void check_value(const ParameterInfo& row, double value, std::string_view where) {
+  const bool in_bounds = std::isfinite(value) && value >= row.lower && value <= row.upper;
+  if (in_bounds && (!is_whole(row) || value == std::floor(value))) return;
+  throw_input_error("{}: key '{}': got {}, expected {}", where, row.full_name(), value,
+                    describe_valid_values(row));
+}
+
+std::string closest_name(std::string_view name, std::span<const std::string> known) {
+  std::string closest;
+  std::size_t least = SIZE_MAX;
+  for (const std::string& candidate : known) {
+    const std::size_t distance = edit_distance(name, candidate);
+    if (distance < least) closest = candidate, least = distance;
+  }
+  return closest;
+}
+
+}  // namespace espalier
