@@ -26,7 +26,9 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   return row.back();
 }
 
-bool is_whole(const ParameterInfo& row) { return row.scale == Scale::integer || row.scale == Scale::choice; }
+bool is_whole(const ParameterInfo& row) {
+  return row.scale == Scale::choice || (row.scale == Scale::integer && !row.relaxable);
+}
 
 std::string describe_choices(const ParameterInfo& row) {
   std::string names;
