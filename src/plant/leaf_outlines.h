@@ -1,0 +1,28 @@
+// Unit outlines of leaves and blossoms: length 1 from the stalk at the origin to the tip at y = 1, no unit.
+// Leaves are flat (z = 0) and symmetric in x; widths and areas are those of the published ones
+// (Hewitt 2017, Appendix C, leaf_shape and blossom_shape), the drawings are ours.
+// plant/plant.h says how an outline is scaled and placed.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/vec3.h"
+
+namespace espalier {
+
+struct LeafOutline {
+  /// Of a leaf: the boundary, counter-clockwise seen from +z, starting at the stalk. Of a blossom: a 3D mesh.
+  std::vector<Vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Leaf shape 1..10: ovate, linear, cordate, maple, palmate, spiky oak, rounded oak, elliptic, rectangle,
+/// triangle; 0 is elliptic. Throws InternalError for any other. The reference stays valid.
+const LeafOutline& leaf_outline(int shape);
+
+/// Blossom 1..3: cherry, orange, magnolia; cups opening along +y, about 1.3 wide and 0.5 to 0.7 tall.
+/// Throws InternalError for any other. The reference stays valid.
+const LeafOutline& blossom_outline(int shape);
+
+}  // namespace espalier

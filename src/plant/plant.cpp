@@ -1,0 +1,99 @@
+// Emptying a plant and its bounding box. Metres.
+#include "plant/plant.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "plant/leaf_outlines.h"
+
+namespace espalier {
+
+namespace {
+
+constexpr int kSamplesPerSegment = 8;
+
+void include(Bounds& box, Vec3 lower, Vec3 upper) {
+  box.lower = {std::min(box.lower.x, lower.x), std::min(box.lower.y, lower.y),
+               std::min(box.lower.z, lower.z)};
+  box.upper = {std::max(box.upper.x, upper.x), std::max(box.upper.y, upper.y),
+               std::max(box.upper.z, upper.z)};
+}
+
+/// Half the width along one axis of a unit disc whose normal has this component there.
+float disc_extent(float normal_component) {
+  return std::sqrt(std::max(0.0f, 1 - normal_component * normal_component));
+}
+
+void include_disc(Bounds& box, Vec3 center, Vec3 normal, float radius) {
+  const Vec3 extent = Vec3{disc_extent(normal.x), disc_extent(normal.y), disc_extent(normal.z)} * radius;
+  include(box, center - extent, center + extent);
+}
+
+/// The segment between knots k and k + 1 as discs across the curve.
+void include_segment(Bounds& box, const Knots& knots, std::size_t k) {
+  const Vec3 p0 = knots.point_m[k], p1 = knots.handle_out_m[k];
+  const Vec3 p2 = knots.handle_in_m[k + 1], p3 = knots.point_m[k + 1];
+  const Vec3 chord = normalized(p3 - p0);
+  for (int i = 0; i <= kSamplesPerSegment; ++i) {
+    const float t = static_cast<float>(i) / kSamplesPerSegment, s = 1 - t;
+    const Vec3 center = s * s * s * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t * t * t * p3;
+    const Vec3 tangent = s * s * (p1 - p0) + 2 * s * t * (p2 - p1) + t * t * (p3 - p2);
+    include_disc(box, center, normalized(tangent, chord), s * knots.radius_m[k] + t * knots.radius_m[k + 1]);
+  }
+}
+
+void include_stems(Bounds& box, const Plant& plant) {
+  for (std::size_t stem = 0; stem < plant.stems.size(); ++stem)
+    for (std::size_t k = plant.stems.first_knot[stem]; k + 1 < plant.stems.first_knot[stem + 1]; ++k)
+      include_segment(box, plant.knots, k);
+}
+
+void include_leaf(Bounds& box, const Leaves& leaves, std::size_t i, const LeafOutline& outline) {
+  const Vec3 side = leaves.side[i] * leaves.width_m[i], axis = leaves.axis[i] * leaves.length_m[i];
+  const Vec3 normal = cross(leaves.side[i], leaves.axis[i]) * leaves.length_m[i];
+  for (const Vec3 v : outline.vertices) {
+    const Vec3 point = leaves.position_m[i] + side * v.x + axis * v.y + normal * v.z;
+    include(box, point, point);
+  }
+}
+
+void include_leaves(Bounds& box, const Plant& plant) {
+  for (std::size_t i = 0; i < plant.leaves.size(); ++i)
+    include_leaf(box, plant.leaves, i,
+                 plant.leaves.kind[i] == LeafKind::leaf ? leaf_outline(plant.leaf_shape)
+                                                        : blossom_outline(plant.blossom_shape));
+}
+
+}  // namespace
+
+void Plant::clear() {
+  stems.first_knot.clear();
+  stems.parent.clear();
+  stems.level.clear();
+  stems.path_key.clear();
+  knots.point_m.clear();
+  knots.handle_in_m.clear();
+  knots.handle_out_m.clear();
+  knots.radius_m.clear();
+  leaves.position_m.clear();
+  leaves.axis.clear();
+  leaves.side.clear();
+  leaves.length_m.clear();
+  leaves.width_m.clear();
+  leaves.kind.clear();
+  leaf_shape = 8;
+  blossom_shape = 1;
+  tree_scale_m = 0;
+}
+
+Bounds bounds(const Plant& plant) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  Bounds box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  include_stems(box, plant);
+  include_leaves(box, plant);
+  return box.lower.x <= box.upper.x ? box : Bounds{};
+}
+
+}  // namespace espalier
