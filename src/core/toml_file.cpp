@@ -1,0 +1,93 @@
+#include "core/toml_file.h"
+
+#include <algorithm>
+#include <fstream>
+#include <system_error>
+
+#include "core/error.h"
+
+namespace espalier {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void check_readable(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) throw_input_error("{}: no such file", path.string());
+  if (status.type() == fs::file_type::directory)
+    throw_input_error("{}: got a directory, expected a TOML file", path.string());
+  if (status.type() != fs::file_type::regular)
+    throw_input_error("{}: {}, expected a TOML file", path.string(),
+                      error ? error.message() : "got no regular file");
+}
+
+void check_text(const fs::path& path, const std::string& text) {
+  if (text.empty()) throw_input_error("{}: got an empty file, expected TOML", path.string());
+  if (text.size() > kMaxTomlBytes)
+    throw_input_error("{}: got more than {} bytes, expected a smaller TOML file", path.string(),
+                      kMaxTomlBytes);
+  if (text.find('\0') != std::string::npos)
+    throw_input_error("{}: got a binary file, expected TOML", path.string());
+}
+
+/// The parser's own words quote the file, which may hold anything: one printable line, not too long.
+std::string one_line(std::string_view text) {
+  std::string line(text.substr(0, 200));
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c >= 0x7f; }, ' ');
+  return line;
+}
+
+}  // namespace
+
+std::string read_toml_text(const fs::path& path) {
+  check_readable(path);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw_input_error("{}: cannot be read, expected a readable TOML file", path.string());
+  std::string text(kMaxTomlBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  check_text(path, text);
+  return text;
+}
+
+toml::table parse_toml(std::string_view text, const std::string& source) {
+  try {
+    return toml::parse(text, source);
+  } catch (const toml::parse_error& error) {
+    throw_input_error("{}:{}: got bad TOML: {}", source, error.source().begin.line,
+                      one_line(error.description()));
+  }
+}
+
+std::string toml_location(const std::string& source, const toml::node& node) {
+  const auto line = node.source().begin.line;
+  return line > 0 ? fmt::format("{}:{}", source, line) : source;
+}
+
+std::string describe_toml(const toml::node& node) {
+  if (const auto number = node.value_exact<double>()) return fmt::format("{}", *number);
+  if (const auto number = node.value_exact<std::int64_t>()) return fmt::format("{}", *number);
+  if (const auto text = node.value_exact<std::string>()) return fmt::format("'{}'", one_line(*text));
+  if (const auto flag = node.value_exact<bool>()) return *flag ? "true" : "false";
+  if (const toml::array* array = node.as_array()) return fmt::format("an array of {}", array->size());
+  return node.is_table() ? "a table" : "a date or time";
+}
+
+std::string quote_toml(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\')
+      quoted += {'\\', c};
+    else if (code < 0x20 || code == 0x7f)
+      quoted += fmt::format("\\u{:04X}", code);
+    else
+      quoted += c;
+  }
+  return quoted + '"';
+}
+
+}  // namespace espalier

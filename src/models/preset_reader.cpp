@@ -1,0 +1,95 @@
+#include "models/preset_reader.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/error.h"
+#include "core/toml_file.h"
+
+namespace espalier {
+
+namespace {
+
+/// The keys a preset may hold, without doubles, in the order of the table.
+std::vector<std::string> known_keys(const ParameterTable& table, std::span<const std::string> other_keys) {
+  std::vector<std::string> keys(other_keys.begin(), other_keys.end());
+  for (const ParameterInfo& row : table.rows)
+    if (keys.empty() || keys.back() != row.name) keys.push_back(row.name);
+  return keys;
+}
+
+std::optional<double> choice_by_name(const ParameterInfo& row, const toml::node& node) {
+  const auto text = node.value_exact<std::string>();
+  const auto found = text ? std::find(row.choices.begin(), row.choices.end(), *text) : row.choices.end();
+  if (found == row.choices.end()) return std::nullopt;
+  return row.first_choice + static_cast<double>(found - row.choices.begin());
+}
+
+/// A number, whole or not; -0 is read as 0.
+std::optional<double> number(const toml::node& node) {
+  if (const auto real = node.value_exact<double>()) return *real + 0.0;
+  if (const auto whole = node.value_exact<std::int64_t>()) return static_cast<double>(*whole);
+  return std::nullopt;
+}
+
+double read_value(const ParameterInfo& row, const toml::node& node, const std::string& source) {
+  if (const auto choice = choice_by_name(row, node)) return *choice;
+  const std::string where = toml_location(source, node);
+  const auto value = number(node);
+  if (!value)
+    throw_input_error("{}: key '{}': got {}, expected {}", where, row.full_name(), describe_toml(node),
+                      describe_valid_values(row));
+  check_value(row, *value, where);
+  return *value;
+}
+
+void check_is_array(std::string_view key, const toml::node& node, std::size_t max_size,
+                    const std::string& source) {
+  const toml::array* array = node.as_array();
+  if (array && array->size() <= max_size) return;
+  throw_input_error("{}: key '{}': got {}, expected an array of at most {} values",
+                    toml_location(source, node), key, describe_toml(node), max_size);
+}
+
+void read_key(std::string_view key, const toml::node& node, const std::string& source,
+              const ParameterTable& table, const std::vector<std::size_t>& rows, ParameterValues& values) {
+  if (table.find(key)) {
+    values[rows[0]] = read_value(table.rows[rows[0]], node, source);
+    return;
+  }
+  check_is_array(key, node, rows.size(), source);
+  const toml::array& array = *node.as_array();
+  for (std::size_t i = 0; i < array.size(); ++i)
+    values[rows[i]] = read_value(table.rows[rows[i]], array[i], source);
+}
+
+}  // namespace
+
+std::vector<std::size_t> rows_of_key(const ParameterTable& table, std::string_view key) {
+  if (const auto row = table.find(key)) return {*row};
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    if (table.rows[i].name == key) rows.push_back(i);
+  if (!rows.empty()) return rows;
+  for (const char component : {'x', 'y', 'z'}) {
+    const auto row = table.find(fmt::format("{}_{}", key, component));
+    if (!row) return {};
+    rows.push_back(*row);
+  }
+  return rows;
+}
+
+void read_parameters(const toml::table& document, const std::string& source, const ParameterTable& table,
+                     std::span<const std::string> other_keys, ParameterValues& values) {
+  for (const auto& [toml_key, node] : document) {
+    const std::string key(toml_key.str());
+    if (std::find(other_keys.begin(), other_keys.end(), key) != other_keys.end()) continue;
+    const std::vector<std::size_t> rows = rows_of_key(table, key);
+    if (rows.empty())
+      throw_input_error("{}: key '{}': got an unknown key, expected one like '{}'",
+                        toml_location(source, node), key, closest_name(key, known_keys(table, other_keys)));
+    read_key(key, node, source, table, rows, values);
+  }
+}
+
+}  // namespace espalier

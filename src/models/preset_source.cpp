@@ -1,0 +1,44 @@
+#include "models/preset_source.h"
+
+#include <vector>
+
+#include "core/error.h"
+#include "core/parameter_table.h"
+#include "core/toml_file.h"
+#include "models/preset.h"
+
+namespace espalier {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool looks_like_path(const std::string& text) {
+  return text.find('/') != std::string::npos || text.ends_with(".toml");
+}
+
+PresetSource bundled_source(const EmbeddedFile& file) {
+  const std::string name(file.name);
+  return {name + " (bundled)", name, name, {}, std::string(file.text)};
+}
+
+PresetSource file_source(const std::string& given, const fs::path& folder) {
+  const fs::path path = folder / given;
+  std::string text = read_toml_text(path);
+  return {path.string(), fs::weakly_canonical(path).string(), path.stem().string(), path.parent_path(),
+          std::move(text)};
+}
+
+}  // namespace
+
+PresetSource find_preset(const std::string& name_or_path, const fs::path& folder) {
+  for (const EmbeddedFile& file : embedded_presets())
+    if (file.name == name_or_path) return bundled_source(file);
+  std::error_code ignored;
+  if (looks_like_path(name_or_path) || fs::exists(folder / name_or_path, ignored))
+    return file_source(name_or_path, folder);
+  throw_input_error("got preset '{}', expected a path or a bundled preset, the closest is '{}'", name_or_path,
+                    closest_name(name_or_path, bundled_presets()));
+}
+
+}  // namespace espalier
