@@ -136,6 +136,7 @@ ParameterInfo make_row(const Definition& definition, int level, float default_va
   for (const ChoiceNames& choice : choice_names())
     if (row.name == choice.name) row.choices = choice.names, row.first_choice = choice.first;
   if (row.name == "branches" && level == 0) row.lower = 1, row.sign = SignMeaning::number;
+  row.relaxable = (row.name == "branches" && level > 0) || row.name == "leaf_blos_num";
   return row;
 }
 
