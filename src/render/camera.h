@@ -10,7 +10,7 @@ enum class Projection { orthographic, perspective };
 
 struct Camera {
   Projection projection = Projection::orthographic;
-  Vec3 position_m{0, -100, 0};  ///< eye; for orthographic any point of the plane rays start from
+  Vec3 position_m{0, -100, 0};  ///< eye; orthographic: where depth is 0, but nothing behind it is cut off
   Vec3 right{1, 0, 0}, up{0, 0, 1}, forward{0, 1, 0};  ///< unit, at right angles
   float metres_per_px = 0.01f;  ///< orthographic: size of a pixel; perspective: its size at distance 1 m
   float center_x_px = 0,
@@ -40,6 +40,7 @@ struct View {
 };
 
 /// A camera that sees all of `box` with a margin: frame = `margin` × the larger of width and height, centred.
+/// A box without a size gets a frame 1 m high.
 Camera frame_bounds(const Bounds& box, const View& view, int width_px, int height_px, float margin = 1.08f);
 
 /// A camera for fits: the world point `base_m` falls on the middle of the bottom edge (at `base_row_px`),

@@ -1,0 +1,65 @@
+// The three kinds of geometry in a plant's Embree scene, as arrays that Embree reads in place:
+// round Bézier curves for stems, flat polygons for leaves (user geometry: a triangulated leaf would be
+// five to twelve primitives), triangles for blossoms. Metres.
+// Segments and leaves without a finite, positive size are left out. Each struct is filled anew by
+// collect(), keeps its memory, and must outlive the commit and the rays of the geometry it is set on.
+#pragma once
+#include <embree3/rtcore.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "plant/plant.h"
+
+namespace espalier {
+
+/// One curve a segment. The radius is linear along it; open, flat ends.
+struct StemCurves {
+  struct ControlPoint {
+    float x, y, z, radius;
+  };
+
+  void collect(const Plant& plant);
+  void set_on(RTCGeometry geometry) const;
+  std::size_t size() const { return first_control_point.size(); }
+
+  std::vector<ControlPoint> control_points;
+  std::vector<std::uint32_t> first_control_point;  ///< of each curve
+  std::vector<std::uint32_t> first_knot;           ///< index in Plant::knots where the curve begins
+};
+
+/// One plane a leaf, with the outline that all share.
+struct LeafPolygons {
+  /// x and y of the outline at a point p of the plane are the products of p − position with the two vectors.
+  struct Plane {
+    Vec3 position_m, normal, x_per_m, y_per_m;
+  };
+  /// An edge of the right half of the outline: x = x0 + slope·(y − y0) for y in [y0, y1).
+  struct Edge {
+    float y0, y1, x0, slope;
+  };
+
+  void collect(const Plant& plant);
+  void set_on(RTCGeometry geometry);
+  std::size_t size() const { return planes.size(); }
+
+  std::vector<Plane> planes;
+  std::vector<Bounds> boxes;
+  std::vector<std::uint32_t> leaf;  ///< index in Plant::leaves of each plane
+  std::vector<Edge> edges;
+  float half_width = 0;  ///< of the outline
+};
+
+struct BlossomTriangles {
+  void collect(const Plant& plant);
+  void set_on(RTCGeometry geometry) const;
+  std::size_t size() const { return triangles.size(); }
+
+  std::vector<std::array<float, 4>> vertices;  ///< the fourth number pads to 16 bytes
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::uint32_t> leaf;  ///< index in Plant::leaves of each triangle
+};
+
+}  // namespace espalier

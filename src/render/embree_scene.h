@@ -1,0 +1,54 @@
+// A plant as an Embree 3 scene that rays are traced through: for masks and for shaded pictures. Metres.
+// One device with one thread a scene, so that scenes build and trace at the same time in several threads
+// with the same bits. Building reuses all memory of the plant before.
+#pragma once
+#include <embree3/rtcore.h>
+
+#include <array>
+#include <cstdint>
+
+#include "image/mask.h"
+#include "plant/plant.h"
+#include "render/camera.h"
+#include "render/embree_geometry.h"
+
+namespace espalier {
+
+/// Fast to build for one mask, or fast to trace for pictures with many rays.
+enum class SceneQuality { fast_build, fast_trace };
+
+/// What a ray hits: Embree's geomID.
+enum PlantPart : unsigned { kStemPart = 0, kLeafPart = 1, kBlossomPart = 2 };
+
+class EmbreeScene {
+ public:
+  explicit EmbreeScene(SceneQuality quality = SceneQuality::fast_build);
+  ~EmbreeScene();
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  /// Replaces the contents. The plant is copied: it may change or vanish afterwards.
+  void build(const Plant& plant);
+
+  /// Sets the pixels whose centre's ray meets the scene. `mask` gets the camera's size.
+  void trace(const Camera& camera, Mask& mask) const;
+
+  /// Contains everything a ray can hit; zero-sized at the origin for an empty scene.
+  Bounds box_m() const { return box_m_; }
+
+  RTCScene handle() const { return scene_; }
+  const StemCurves& stems() const { return stems_; }
+  const LeafPolygons& leaves() const { return leaves_; }
+  const BlossomTriangles& blossoms() const { return blossoms_; }
+
+ private:
+  RTCDevice device_ = nullptr;
+  RTCScene scene_ = nullptr;
+  std::array<RTCGeometry, 3> geometries_{};
+  StemCurves stems_;
+  LeafPolygons leaves_;
+  BlossomTriangles blossoms_;
+  Bounds box_m_;
+};
+
+}  // namespace espalier
