@@ -1,0 +1,158 @@
+// Counts, spacing and orientation of children, see children.h.
+#include "weber_penn/children.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "weber_penn/shape_ratio.h"
+
+namespace espalier {
+
+float child_stem_count(const GrowingStem& stem, const WeberPennParameters& p) {
+  const int child_level = level_index(stem.level + 1);
+  const float most = p.branches[child_level];
+  if (most < 0) return most;
+  float count = most;
+  if (stem.level == 0)
+    count *= 0.9f + 0.2f * draw_unit(stem.key, Draw::child_count);
+  else if (stem.level == 1)
+    count *= 0.2f + 0.8f * (stem.length_m / stem.parent_length_m) / stem.parent_child_max;
+  else
+    count *= 1 - 0.5f * stem.offset_m / stem.parent_length_m;
+  return count / (1 - p.base_size[level_index(stem.level)]);
+}
+
+float leaf_count(const GrowingStem& stem, const WeberPennParameters& p) {
+  if (p.leaf_blos_num < 0) return p.leaf_blos_num;
+  const float count = p.leaf_blos_num * stem.tree.scale_m / p.g_scale;
+  return stem.level == 0 ? count : count * stem.length_m / (stem.parent_child_max * stem.parent_length_m);
+}
+
+ChildPlacer::ChildPlacer(const GrowingStem& stem, float count, const WeberPennParameters& parameters)
+    : p_(parameters),
+      stem_(stem),
+      count_(count),
+      child_level_(level_index(stem.level + 1)),
+      distribution_(parameters.branch_dist[child_level_]),
+      rotation_deg_(360 * draw_unit(stem.key, Draw::child_rotation_start)) {}
+
+void ChildPlacer::begin(const GrowingStem& stem, const Segment& segment) {
+  const int segments = segment_count(p_, stem.level);
+  stem_ = stem;
+  segment_ = segment;
+  last_segment_ = segment.z_end >= 1;
+  const float started = 1 - static_cast<float>(stem_.first_segment) / segments;
+  rate_ = std::max(0.f, count_) * stem.branch_factor * started / segments;
+  before_ = reached_;
+  reached_ += rate_;
+}
+
+bool ChildPlacer::next(ChildSite& site) {
+  if (count_ < 0) return next_in_fan(site);
+  return distribution_ > 1 ? next_in_whorl(site) : next_along(site);
+}
+
+bool ChildPlacer::next_along(ChildSite& site) {
+  constexpr float kRounding = 1e-4f;  // of a running count of up to some hundreds in float
+  while (rate_ > 0) {
+    const float missing = static_cast<float>(placed_ + 1) - reached_;
+    const bool relaxed_last = p_.relaxed_counts > 0 && last_segment_ && missing < 1;
+    if (missing > kRounding && !relaxed_last) return false;
+    site.index = placed_;
+    site.grown_fraction = missing > kRounding ? 1 - missing : 1;
+    const float shift = placed_ % 2 == 1 ? distribution_ : 0;  // 1: opposite the one before it
+    const float t = (static_cast<float>(placed_) + 0.5f - shift - before_) / rate_;
+    ++placed_;
+    const float roll_deg = next_rotation_deg();
+    if (site.grown_fraction > 0 && site_at(std::clamp(t, 0.f, 1.f), roll_deg, site)) return true;
+  }
+  return false;
+}
+
+/// Whorls of branch_dist + 1 children, the rounding diffused from whorl to whorl.
+bool ChildPlacer::next_in_whorl(ChildSite& site) {
+  const float size = distribution_ + 1;
+  while (rate_ > 0) {
+    const float whorl_center = (static_cast<float>(whorl_) + 0.5f) * size;
+    if (whorl_center > reached_) return false;
+    const int members = static_cast<int>((whorl_ + 1) * size) - static_cast<int>(whorl_ * size);
+    if (in_whorl_ >= members) {
+      ++whorl_;
+      in_whorl_ = 0;
+      rotation_deg_ += p_.rotate[child_level_];
+      continue;
+    }
+    site.index = placed_++;
+    site.grown_fraction = 1;
+    const float jitter = draw_signed(stem_.key, Draw::child_rotation, site.index) * p_.rotate_v[child_level_];
+    const float roll_deg = rotation_deg_ + 360.f * static_cast<float>(in_whorl_++) / members + jitter;
+    if (site_at(std::clamp((whorl_center - before_) / rate_, 0.f, 1.f), roll_deg, site)) return true;
+  }
+  return false;
+}
+
+/// |count| children from the tip, spread over the angle `rotate` in the plane of the stem.
+bool ChildPlacer::next_in_fan(ChildSite& site) {
+  const int members = static_cast<int>(std::ceil(-count_));
+  if (!last_segment_ || placed_ >= members) return false;
+  site.index = placed_;
+  site.grown_fraction = std::min(1.f, -count_ - static_cast<float>(placed_));
+  const float across = members > 1 ? static_cast<float>(placed_) / static_cast<float>(members - 1) - 0.5f : 0;
+  const float jitter = draw_signed(stem_.key, Draw::child_rotation, placed_) * p_.rotate_v[child_level_];
+  site.offset_m = stem_.length_m;
+  site.parent_radius_m = stem_radius_m(stem_, 1, p_);
+  site.turtle = segment_.end;
+  site.outward = segment_.end.forward;
+  site.turtle.turn_right(p_.rotate[child_level_] * across + jitter);
+  site.turtle.pitch_down(down_angle_deg(stem_.length_m));
+  ++placed_;
+  return true;
+}
+
+/// False below the stem's base, where nothing grows.
+bool ChildPlacer::site_at(float t, float roll_deg, ChildSite& site) {
+  const float z = segment_.z_start + t * (segment_.z_end - segment_.z_start);
+  site.offset_m = z * stem_.length_m;
+  if (site.offset_m < p_.base_size[level_index(stem_.level)] * stem_.length_m) return false;
+  site.parent_radius_m = stem_radius_m(stem_, z, p_);
+  site.turtle = frame_at(t);
+  site.turtle.roll_right(roll_deg);
+  Turtle normal = site.turtle;
+  normal.pitch_down(90);
+  site.outward = normal.forward;
+  site.turtle.pitch_down(down_angle_deg(site.offset_m));
+  return true;
+}
+
+/// Heading along the curve; `right` as [CH §3.2.1]: (forward × right at the segment's end) × tangent, and
+/// along a helix the turn of the tangent.
+Turtle ChildPlacer::frame_at(float t) const {
+  Turtle frame;
+  frame.position_m = segment_point(segment_, t);
+  frame.forward = segment_tangent(segment_, t);
+  const Vec3 right = segment_.helical ? cross(segment_tangent(segment_, t + 0.05f), frame.forward)
+                                      : cross(cross(segment_.end.forward, segment_.end.right), frame.forward);
+  frame.right = normalized(right, any_perpendicular(frame.forward));
+  return frame;
+}
+
+/// rotate ≥ 0: further round than the one before; < 0: alternate sides, that far from the downward direction.
+float ChildPlacer::next_rotation_deg() {
+  const float rotate = p_.rotate[child_level_];
+  const float jitter = draw_signed(stem_.key, Draw::child_rotation, placed_) * p_.rotate_v[child_level_];
+  if (rotate >= 0) return rotation_deg_ += rotate + jitter;
+  return (placed_ % 2 == 0 ? 1.f : -1.f) * (180 + rotate + jitter);
+}
+
+/// down_angle_v < 0: the angle changes along the parent by the conical shape, then ±10 % [WP §4.3].
+float ChildPlacer::down_angle_deg(float offset_m) const {
+  const float angle = p_.down_angle[child_level_], variation = p_.down_angle_v[child_level_];
+  const float jitter = draw_signed(stem_.key, Draw::child_down_angle, placed_);
+  if (variation >= 0) return angle + jitter * variation;
+  const float bare_m = stem_.length_m * (1 - p_.base_size[level_index(stem_.level)]);
+  const float ratio = (stem_.length_m - offset_m) / bare_m;
+  const float shaped = angle + variation * (1 - 2 * shape_ratio(0, ratio, p_));
+  return shaped * (1 + 0.1f * jitter);
+}
+
+}  // namespace espalier

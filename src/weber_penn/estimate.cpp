@@ -1,0 +1,86 @@
+// Expected counts level by level: splits as a branching process, children by the mean of their formulas.
+#include "weber_penn/estimate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "weber_penn/shape_ratio.h"
+#include "weber_penn/stem.h"
+
+namespace espalier {
+
+namespace {
+
+/// Stems that one stem has become after its last segment, and how many there were on average on the way.
+struct Clones {
+  double at_tip = 1, mean = 1;
+};
+
+/// Generation g of clones splits with probability 1/(s+1)^g [CH §3.2.1].
+Clones expected_clones(const WeberPennParameters& p, int level) {
+  constexpr int kGenerations = 12;
+  std::array<double, kGenerations + 1> stems{1};
+  const double rate = p.seg_splits[level_index(level)];
+  const int segments = segment_count(p, level);
+  const double per_split = std::max(1.0, rate);
+  double total = 1, sum = 1;
+  const int base_segment = static_cast<int>(std::ceil(p.base_size[0] * static_cast<float>(segments)));
+  for (int at = 1; at < segments; ++at) {
+    const int first = level == 0 ? base_segment : 0;
+    if (level == 0 && at == std::max(1, first)) {
+      const double extra = p.base_splits < 0 ? -p.base_splits / 2.0 : p.base_splits;
+      for (double& count : stems) count *= 1 + extra;
+    }
+    double probability = at > first ? std::min(1.0, rate) : 0;
+    std::array<double, kGenerations + 1> after = stems;
+    for (int generation = 0; generation < kGenerations; ++generation, probability /= per_split + 1) {
+      const double splitting = stems[generation] * probability;
+      after[generation] -= splitting;
+      after[generation + 1] += splitting * (1 + per_split);
+    }
+    stems = after;
+    total = 0;
+    for (const double count : stems) total += count;
+    sum += total;
+  }
+  return {total, sum / segments};
+}
+
+/// Mean number of children of a stem relative to branches[level + 1].
+double mean_child_share(const WeberPennParameters& p, int level) {
+  if (level == 0) return 1;
+  if (level > 1) return 0.75;
+  double sum = 0;
+  constexpr int kSamples = 8;
+  for (int sample = 0; sample < kSamples; ++sample)
+    sum += shape_ratio(static_cast<int>(p.shape), (sample + 0.5f) / kSamples, p);
+  return 0.2 + 0.8 * sum / kSamples;
+}
+
+double mean_leaf_share(const WeberPennParameters& p, int level) {
+  if (level < 2) return level == 0 ? 1 : mean_child_share(p, 1) * 1.25 - 0.25;
+  return 0.65;
+}
+
+}  // namespace
+
+GrowthEstimate estimate_growth(const WeberPennParameters& p) {
+  double roots = std::max(1.f, p.branches[0]), stems = 0, leaves = 0;
+  for (int level = 0; level < p.level_count(); ++level) {
+    const Clones clones = expected_clones(p, level);
+    stems += roots * clones.at_tip;
+    if (level + 1 == p.level_count()) {
+      const double per_stem = std::fabs(p.leaf_blos_num);
+      leaves = roots * (p.leaf_blos_num < 0 ? per_stem * clones.at_tip
+                                            : per_stem * clones.mean * mean_leaf_share(p, level));
+      break;
+    }
+    const double children = p.branches[level_index(level + 1)];
+    const bool fan = children < 0;
+    roots *= fan ? -children * clones.at_tip : children * clones.mean * mean_child_share(p, level);
+  }
+  return {stems, leaves};
+}
+
+}  // namespace espalier

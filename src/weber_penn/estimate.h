@@ -1,0 +1,11 @@
+// How large a tree will get, from its parameters alone: candidates beyond the budget are refused unseen.
+#pragma once
+#include "plant/model.h"
+#include "weber_penn/parameters.h"
+
+namespace espalier {
+
+/// Expected stems and leaves, without pruning; within a factor of about two of what grows.
+GrowthEstimate estimate_growth(const WeberPennParameters& parameters);
+
+}  // namespace espalier

@@ -1,0 +1,173 @@
+// Growth is breadth-first: all stems of a level, their clones queued behind them, then their children.
+// A parent therefore always comes before its children in the plant's arrays.
+#include "weber_penn/grow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "weber_penn/children.h"
+#include "weber_penn/leaf_placement.h"
+#include "weber_penn/pruning.h"
+#include "weber_penn/shape_ratio.h"
+#include "weber_penn/stem_knots.h"
+#include "weber_penn/trunks.h"
+
+namespace espalier {
+
+namespace {
+
+constexpr float kThinnestParent_m = 0.0001f;
+constexpr float kThinnestChild_m = 0.005f;
+constexpr float kShortestStem_m = 1e-5f;
+
+class Growth {
+ public:
+  Growth(const WeberPennParameters& p, const GrowthSettings& settings, Plant& plant)
+      : p_(p), settings_(settings), plant_(plant) {}
+
+  GrowthResult run(Seed seed);
+
+ private:
+  class StemGrowth;
+
+  void grow_stem(const GrowingStem& stem);
+  void grow_child(const GrowingStem& parent, std::int32_t parent_index, const ChildSite& site);
+  float child_length_m(const GrowingStem& parent, const ChildSite& site) const;
+  float child_radius_m(const GrowingStem& parent, const ChildSite& site, float length_m) const;
+  bool prune(GrowingStem& stem) const;
+  double over_budget_factor() const;
+
+  const WeberPennParameters& p_;
+  const GrowthSettings& settings_;
+  Plant& plant_;
+  std::vector<GrowingStem> level_, next_level_;  ///< queues
+};
+
+/// Adds the knots of one stem, its leaves and its queued children while the stem is walked.
+class Growth::StemGrowth : public StemVisitor {
+ public:
+  StemGrowth(Growth& growth, const GrowingStem& stem)
+      : growth_(growth), index_(static_cast<std::int32_t>(growth.plant_.stems.size()) - 1) {
+    const bool last_level = stem.level + 1 >= growth.p_.level_count();
+    bears_leaves_ = last_level && growth.p_.leaf_blos_num != 0;
+    if (bears_leaves_)
+      children_.emplace(stem, leaf_count(stem, growth.p_), growth.p_);
+    else if (!last_level)
+      children_.emplace(stem, child_stem_count(stem, growth.p_), growth.p_);
+  }
+
+  bool segment(const GrowingStem& stem, const Segment& segment) override {
+    append_knots(stem, segment, growth_.p_, growth_.plant_.knots);
+    if (!children_) return true;
+    children_->begin(stem, segment);
+    for (ChildSite site; children_->next(site);) {
+      if (bears_leaves_)
+        place_leaf(stem, site, growth_.p_, growth_.plant_.leaves);
+      else
+        growth_.grow_child(stem, index_, site);
+    }
+    return true;
+  }
+
+  void split(const GrowingStem& clone) override { growth_.level_.push_back(clone); }
+
+ private:
+  Growth& growth_;
+  std::int32_t index_;
+  bool bears_leaves_ = false;
+  std::optional<ChildPlacer> children_;
+};
+
+void Growth::grow_stem(const GrowingStem& stem) {
+  plant_.stems.parent.push_back(stem.parent);
+  plant_.stems.level.push_back(static_cast<std::uint8_t>(stem.level));
+  plant_.stems.path_key.push_back(stem.key.value);
+  StemGrowth growth(*this, stem);
+  walk_stem(stem, p_, growth);
+  plant_.stems.first_knot.push_back(static_cast<std::uint32_t>(plant_.knots.size()));
+}
+
+/// Level 1 follows the crown's shape, deeper levels their place on the parent [Weber & Penn 95, §4.4].
+float Growth::child_length_m(const GrowingStem& parent, const ChildSite& site) const {
+  const float longest_m = parent.length_m * parent.child_max;
+  if (parent.level > 0) return parent.child_max * (parent.length_m - 0.7f * site.offset_m);
+  const float ratio = (parent.length_m - site.offset_m) / (parent.length_m - parent.tree.base_length_m);
+  return longest_m * shape_ratio(static_cast<int>(p_.shape), std::clamp(ratio, 0.f, 1.f), p_);
+}
+
+float Growth::child_radius_m(const GrowingStem& parent, const ChildSite& site, float length_m) const {
+  const float scaled_m = p_.radius_mod[level_index(parent.level + 1)] * parent.radius_m *
+                         std::pow(length_m / parent.length_m, p_.ratio_power);
+  return std::min(site.parent_radius_m, std::max(kThinnestChild_m, scaled_m));
+}
+
+void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, const ChildSite& site) {
+  if (site.parent_radius_m < kThinnestParent_m) return;
+  const int level = parent.level + 1;
+  GrowingStem child;
+  child.key = child_key(parent.key, site.index);
+  child.level = level;
+  child.parent = parent_index;
+  child.tree = parent.tree;
+  child.turtle = site.turtle;
+  child.offset_m = site.offset_m;
+  child.parent_length_m = parent.length_m;
+  child.parent_child_max = parent.child_max;
+  child.length_m = site.grown_fraction * child_length_m(parent, site);
+  if (child.length_m < kShortestStem_m || !prune(child)) return;
+  child.radius_m = child_radius_m(parent, site, child.length_m);
+  const int next = level_index(level + 1);
+  child.child_max = p_.length[next] + draw_signed(child.key, Draw::child_length) * p_.length_v[next];
+  // [CH §3.2.1]: starts as close as is safe to the parent's surface.
+  child.turtle.position_m += site.outward * (site.parent_radius_m - child.radius_m);
+  next_level_.push_back(child);
+}
+
+/// False where nothing is left of the stem.
+bool Growth::prune(GrowingStem& stem) const {
+  stem.length_m = pruned_length_m(stem, p_, settings_.prune_to);
+  return stem.length_m >= kShortestStem_m;
+}
+
+double Growth::over_budget_factor() const {
+  const double stems =
+      static_cast<double>(plant_.stems.size() + next_level_.size()) / settings_.budget.max_stems;
+  const double leaves = static_cast<double>(plant_.leaves.size()) / settings_.budget.max_leaves;
+  return std::max(stems, leaves);
+}
+
+GrowthResult Growth::run(Seed seed) {
+  plant_trunks(p_, root_key(seed), level_);
+  plant_.tree_scale_m = level_.front().tree.scale_m;
+  for (GrowingStem& trunk : level_) {
+    if (!prune(trunk)) trunk.length_m = 0;
+    trunk.radius_m = trunk.length_m * p_.ratio * p_.radius_mod[0];
+    trunk.child_max = p_.length[1] + draw_signed(trunk.key, Draw::child_length) * p_.length_v[1];
+  }
+  std::erase_if(level_, [](const GrowingStem& trunk) { return trunk.length_m < kShortestStem_m; });
+  for (int level = 0; level < p_.level_count() && !level_.empty(); ++level) {
+    for (std::size_t index = 0; index < level_.size(); ++index) {
+      const GrowingStem stem = level_[index];  // a copy: clones are queued while it grows
+      grow_stem(stem);
+      if (const double factor = over_budget_factor(); factor > 1) return {false, factor};
+    }
+    std::swap(level_, next_level_);
+    next_level_.clear();
+  }
+  return {};
+}
+
+}  // namespace
+
+GrowthResult grow_tree(const WeberPennParameters& parameters, Seed seed, const GrowthSettings& settings,
+                       Plant& plant) {
+  plant.clear();
+  plant.leaf_shape = static_cast<int>(parameters.leaf_shape);
+  plant.blossom_shape = static_cast<int>(parameters.blossom_shape);
+  plant.stems.first_knot.push_back(0);
+  return Growth(parameters, settings, plant).run(seed);
+}
+
+}  // namespace espalier

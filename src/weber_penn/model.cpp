@@ -1,0 +1,41 @@
+// The Weber–Penn model behind the Model interface, see model.h.
+#include "weber_penn/model.h"
+
+#include <algorithm>
+
+#include "weber_penn/estimate.h"
+#include "weber_penn/grow.h"
+#include "weber_penn/parameters.h"
+
+namespace espalier {
+
+namespace {
+
+class WeberPennModel : public Model {
+ public:
+  const ParameterTable& table() const override { return weber_penn_table(); }
+
+  GrowthEstimate estimate(std::span<const double> values) const override {
+    return estimate_growth(weber_penn_parameters(values));
+  }
+
+  GrowthResult generate(std::span<const double> values, Seed seed, const GrowthSettings& settings,
+                        Plant& plant) const override {
+    const WeberPennParameters parameters = weber_penn_parameters(values);
+    const GrowthEstimate expected = estimate_growth(parameters);
+    // Twice the budget is beyond the estimate's error: refused before it is grown.
+    const double factor =
+        std::max(expected.stems / settings.budget.max_stems, expected.leaves / settings.budget.max_leaves);
+    if (factor > 2) return {false, factor};
+    return grow_tree(parameters, seed, settings, plant);
+  }
+};
+
+}  // namespace
+
+const Model& weber_penn_model() {
+  static const WeberPennModel kModel;
+  return kModel;
+}
+
+}  // namespace espalier

@@ -1,0 +1,12 @@
+// Pruning: shortening a stem until it stays inside the envelope or a user's volume [CH §3.2.1 Pruning].
+#pragma once
+#include "environment/volume.h"
+#include "weber_penn/stem_walk.h"
+
+namespace espalier {
+
+/// The length the stem keeps, in metres; 0 where it is dropped. `volume` replaces the parametric envelope
+/// and prunes fully unless prune_ratio says how far.
+float pruned_length_m(const GrowingStem& stem, const WeberPennParameters& parameters, const Volume* volume);
+
+}  // namespace espalier

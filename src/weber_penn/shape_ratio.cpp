@@ -1,0 +1,50 @@
+// Crown shapes and the pruning envelope, see shape_ratio.h.
+#include "weber_penn/shape_ratio.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace espalier {
+
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+using Shape = float (*)(float ratio);
+
+float peaked_at_07(float r) { return r <= 0.7f ? r / 0.7f : (1 - r) / 0.3f; }
+
+const std::array<Shape, 8> kShapes = {
+    [](float r) { return 0.2f + 0.8f * r; },                         // conical
+    [](float r) { return 0.2f + 0.8f * std::sin(kPi * r); },         // spherical
+    [](float r) { return 0.2f + 0.8f * std::sin(0.5f * kPi * r); },  // hemispherical
+    [](float) { return 1.0f; },                                      // cylindrical
+    [](float r) { return 0.5f + 0.5f * r; },                         // tapered cylindrical
+    peaked_at_07,                                                    // flame
+    [](float r) { return 1 - 0.8f * r; },                            // inverse conical
+    [](float r) { return 0.5f + 0.5f * peaked_at_07(r); },           // tend flame
+};
+
+/// Shape 8. The lower branch divides by 1 − prune_width_peak as the published implementation does, where
+/// Weber and Penn divide by prune_width_peak: the species values were tuned for the former.
+float envelope_ratio(float r, const WeberPennParameters& parameters) {
+  if (r < 0 || r > 1) return 0;
+  const float upper_part = 1 - parameters.prune_width_peak;
+  if (r < upper_part) return std::pow(r / upper_part, parameters.prune_power_high);
+  if (upper_part <= 0) return r < 1 ? 1.f : 0.f;
+  return std::pow((1 - r) / upper_part, parameters.prune_power_low);
+}
+
+}  // namespace
+
+float shape_ratio(int shape, float ratio, const WeberPennParameters& parameters) {
+  return shape < 8 ? kShapes[shape](ratio) : envelope_ratio(ratio, parameters);
+}
+
+bool inside_envelope(Vec3 point_m, float tree_scale_m, const WeberPennParameters& parameters) {
+  const float distance = std::hypot(point_m.x, point_m.y);
+  const float ratio = (tree_scale_m - point_m.z) / (tree_scale_m * (1 - parameters.base_size[0]));
+  return distance / tree_scale_m < parameters.prune_width * shape_ratio(8, ratio, parameters);
+}
+
+}  // namespace espalier

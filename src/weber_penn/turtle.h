@@ -1,0 +1,44 @@
+// The moving frame that stems grow by, after the turtle of [CH §3.2.1]: a position, a heading and the
+// vector to its right. Angles in degrees. `up` = right × forward completes the frame.
+#pragma once
+#include <cmath>
+#include <numbers>
+
+#include "core/vec3.h"
+
+namespace espalier {
+
+inline float radians(float angle_deg) { return angle_deg * (std::numbers::pi_v<float> / 180); }
+inline float degrees(float angle_rad) { return angle_rad * (180 / std::numbers::pi_v<float>); }
+
+/// `v` turned about the unit vector `axis` (Rodrigues' formula, right-handed).
+inline Vec3 rotated(Vec3 v, Vec3 axis, float angle_rad) {
+  const float c = std::cos(angle_rad), s = std::sin(angle_rad);
+  return v * c + cross(axis, v) * s + axis * (dot(axis, v) * (1 - c));
+}
+
+/// Angle of a direction from straight up, in degrees.
+inline float declination_deg(Vec3 forward) {
+  return degrees(std::acos(std::fmin(1.f, std::fmax(-1.f, forward.z))));
+}
+
+struct Turtle {
+  Vec3 position_m;
+  Vec3 forward{0, 0, 1}, right{1, 0, 0};
+
+  void move(float distance_m) { position_m += forward * distance_m; }
+
+  /// Turns the heading to the right, about the frame's up axis.
+  void turn_right(float angle_deg) { rotate_about(normalized(cross(forward, right)), angle_deg); }
+  void turn_left(float angle_deg) { turn_right(-angle_deg); }
+  void pitch_down(float angle_deg) { forward = normalized(rotated(forward, right, radians(-angle_deg))); }
+  void roll_right(float angle_deg) { right = normalized(rotated(right, forward, radians(angle_deg))); }
+
+  /// Turns heading and right about a unit vector of the world.
+  void rotate_about(Vec3 axis, float angle_deg) {
+    forward = normalized(rotated(forward, axis, radians(angle_deg)));
+    right = normalized(rotated(right, axis, radians(angle_deg)));
+  }
+};
+
+}  // namespace espalier
