@@ -8,7 +8,12 @@ class App;
 
 namespace espalier {
 
-/// Parses the arguments, runs the command, prints errors. Returns the exit code: 0, 1 (our failure), 2 (bad input).
+/// Parses the arguments, runs the command, prints errors. Returns the exit code: 0, 1 (our failure), 2 (bad
+/// input).
 int run_program(int argc, const char* const* argv);
+
+void add_species_command(CLI::App& app);
+void add_params_command(CLI::App& app);
+void add_completion_command(CLI::App& app);
 
 }  // namespace espalier

@@ -2,12 +2,13 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <string>
 
 #include "app/commands.h"
+#include "app/version.h"
 #include "core/error.h"
 
 namespace espalier {
@@ -25,7 +26,11 @@ void print_error(std::string message) {
 int run_program(int argc, const char* const* argv) {
   CLI::App app{"Espalier fits tree models to pictures.", "espalier"};
   app.require_subcommand(1);
+  app.set_version_flag("--version", version_text, "Print the version, the commit and the libraries");
   // Commands, in the order of the help.
+  add_species_command(app);
+  add_params_command(app);
+  add_completion_command(app);
   try {
     app.parse(argc, argv);
     return 0;

@@ -1,7 +1,5 @@
-// Writes a preset as TOML in the order of its model's table; load_preset reads it back to the same bits.
-// Numbers are the shortest decimal ones that round-trip (fmt's default).
-#include <cmath>
-
+// Writes a preset as TOML in the order of its model's table, a line a key with its unit and help;
+// load_preset reads it back to the same bits. Numbers are the shortest decimals that do so (fmt's default).
 #include "core/error.h"
 #include "core/toml_file.h"
 #include "models/models.h"
@@ -18,15 +16,18 @@ std::string value_to_toml(const ParameterInfo& row, double value) {
   return fmt::format("{}", value);
 }
 
-/// "curve_v = [20, 50, 75, 0]  # deg".
-std::string key_to_toml(const ParameterTable& table, const std::string& key, const ParameterValues& values) {
+/// "curve_v = [20, 50, 75, 0]", without the comment.
+std::string assignment(const ParameterTable& table, const std::string& key, const ParameterValues& values) {
+  const std::vector<std::size_t> rows = rows_of_key(table, key);
   std::string list;
-  for (const std::size_t row : rows_of_key(table, key))
+  for (const std::size_t row : rows)
     list += (list.empty() ? "" : ", ") + value_to_toml(table.rows[row], values[row]);
-  const ParameterInfo& first = table.rows[rows_of_key(table, key)[0]];
-  const std::string unit = first.unit == "1" || first.unit.empty() ? "" : "  # " + first.unit;
-  return first.level < 0 ? fmt::format("{} = {}{}\n", key, list, unit)
-                         : fmt::format("{} = [{}]{}\n", key, list, unit);
+  return table.rows[rows[0]].level < 0 ? fmt::format("{} = {}", key, list)
+                                       : fmt::format("{} = [{}]", key, list);
+}
+
+std::string comment(const ParameterInfo& row) {
+  return row.unit.empty() || row.unit == "1" ? row.help : fmt::format("{}: {}", row.unit, row.help);
 }
 
 }  // namespace
@@ -38,7 +39,8 @@ std::string preset_to_toml(const Preset& preset) {
                                  quote_toml(preset.description), quote_toml(preset.model));
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     if (i == 0 || table.rows[i].name != table.rows[i - 1].name)
-      text += key_to_toml(table, table.rows[i].name, preset.values);
+      text += fmt::format("{:<36}  # {}\n", assignment(table, table.rows[i].name, preset.values),
+                          comment(table.rows[i]));
   return text;
 }
 
