@@ -1,0 +1,107 @@
+#include "core/files.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "core/error.h"
+
+namespace espalier {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void throw_cannot_write(const fs::path& path, int error_number) {
+  throw_input_error("{}: cannot be written: {}", path.string(), std::strerror(error_number));
+}
+
+/// A file that disappears again unless it was kept.
+class TemporaryFile {
+ public:
+  TemporaryFile(fs::path path, const fs::path& for_path) : path_(std::move(path)) {
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) throw_cannot_write(for_path, errno);
+  }
+  ~TemporaryFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!kept_) ::unlink(path_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  int descriptor() const { return descriptor_; }
+  /// Closes and renames; returns errno, 0 where all went well.
+  int keep_as(const fs::path& target) {
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    if (closed != 0 || ::rename(path_.c_str(), target.c_str()) != 0) return errno;
+    kept_ = true;
+    return 0;
+  }
+
+ private:
+  fs::path path_;
+  int descriptor_ = -1;
+  bool kept_ = false;
+};
+
+/// Returns errno, 0 where all bytes were taken.
+int write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+/// A device or a pipe cannot be replaced by a rename.
+void write_in_place(const fs::path& path, std::string_view bytes) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) throw_cannot_write(path, errno);
+  const int failed = write_all(descriptor, bytes);
+  ::close(descriptor);
+  if (failed != 0) throw_cannot_write(path, failed);
+}
+
+/// Beside `path`, so that the rename stays on one file system; unlike any other thread's or process's.
+fs::path temporary_path(const fs::path& path) {
+  static std::atomic<unsigned> counter{0};
+  return path.parent_path() / fmt::format(".{}.{}-{}.tmp", path.filename().string(), ::getpid(), counter++);
+}
+
+}  // namespace
+
+void write_file_atomically(const fs::path& path, std::string_view bytes) {
+  std::error_code none;
+  const fs::file_status status = fs::status(path, none);
+  if (fs::is_directory(status)) throw_cannot_write(path, EISDIR);
+  if (fs::exists(status) && !fs::is_regular_file(status)) return write_in_place(path, bytes);
+  const fs::path target = fs::is_symlink(fs::symlink_status(path, none)) ? fs::weakly_canonical(path) : path;
+  TemporaryFile file(temporary_path(target), path);
+  int failed = write_all(file.descriptor(), bytes);
+  if (failed == 0) failed = file.keep_as(target);
+  if (failed != 0) throw_cannot_write(path, failed);
+}
+
+std::string read_file(const fs::path& path) {
+  std::error_code none;
+  const fs::file_status status = fs::status(path, none);
+  if (!fs::exists(status)) throw_input_error("{}: there is no such file", path.string());
+  if (fs::is_directory(status)) throw_input_error("{}: is a directory, expected a file", path.string());
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw_input_error("{}: cannot be read: {}", path.string(), std::strerror(errno));
+  std::string bytes(std::istreambuf_iterator<char>(stream), {});
+  if (stream.bad()) throw_input_error("{}: cannot be read to its end", path.string());
+  return bytes;
+}
+
+}  // namespace espalier
