@@ -1,6 +1,7 @@
 // What every optimiser shares. All of them minimise over the unit box [0, 1]^n and evaluate batches
 // of candidates, so that one place counts, logs, replays, parallelises and stops.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <map>
@@ -21,6 +22,20 @@ class Objective {
   /// points: row-major, values.size() rows of dimension() coordinates in [0, 1]. Finite values out.
   /// Rows may be computed in parallel; value i depends on row i only.
   virtual void evaluate(std::span<const double> points, std::span<double> values) const = 0;
+
+  /// The parameter that coordinate `unit` of dimension `index` stands for, in its own unit and with its
+  /// own sign: what "proportional to its value" and "flip its sign" mean to hewitt_ga. A search space
+  /// overrides both; a plain function of the box is its own parameter.
+  virtual double value_of(std::size_t index, double unit) const {
+    (void)index;
+    return unit;
+  }
+  /// The coordinate in [0, 1] whose parameter lies closest to `value`; the inverse of value_of. A sign that
+  /// has no coordinate (no negative values in the bounds) is thereby clamped away.
+  virtual double unit_of(std::size_t index, double value) const {
+    (void)index;
+    return std::clamp(value, 0.0, 1.0);
+  }
 };
 
 struct Budget {
@@ -43,6 +58,7 @@ class Observer {
 
 enum class StopReason { budget, target, observer, converged };
 
+/// best_point is empty where the observer stopped the run before its first evaluation.
 struct MinimizeResult {
   std::vector<double> best_point;
   double best_value = std::numeric_limits<double>::infinity();
@@ -57,6 +73,7 @@ struct SettingInfo {
   std::string name;
   double default_value, lower, upper;
   std::string help;
+  bool whole = false;  ///< a count or a switch: whole numbers only
 };
 
 class Optimizer {
@@ -65,8 +82,15 @@ class Optimizer {
   virtual std::string name() const = 0;
   virtual std::string help() const = 0;  ///< one line: method and source
   virtual std::vector<SettingInfo> settings() const { return {}; }
+  /// The dimensions the method can handle, both included; minimize throws InputError outside them.
+  virtual std::size_t min_dimension() const { return 1; }
+  virtual std::size_t max_dimension() const { return std::numeric_limits<std::size_t>::max(); }
+  /// False where the method is deterministic: every seed then gives the same run.
+  virtual bool uses_seed() const { return true; }
   /// Throws InputError where budget, start or settings do not suit the method, before any evaluation.
-  /// start: points to begin from, rows of dimension coordinates, possibly none.
+  /// start: points to begin from, rows of dimension coordinates in [0, 1], possibly none. They are evaluated
+  /// first, in one batch, and count; methods without a start point (DIRECT) only remember the best.
+  /// No method looks at the budget: a run with a smaller one is a prefix of the longer run.
   /// The same (objective, settings, budget, start, seed) gives the same bits, whatever the threads.
   virtual MinimizeResult minimize(const Objective& objective, const OptimizerSettings& settings,
                                   const Budget& budget, std::span<const double> start, Seed seed,

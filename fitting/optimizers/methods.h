@@ -1,0 +1,17 @@
+// The methods all_optimizers() is made of, one function a file.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "fitting/optimizer.h"
+
+namespace espalier {
+
+std::unique_ptr<Optimizer> make_random_search();
+std::unique_ptr<Optimizer> make_hewitt_ga();
+std::unique_ptr<Optimizer> make_ga();
+std::unique_ptr<Optimizer> make_cma_es();
+/// One optimiser a row of the table of NLopt's algorithms (nlopt_algorithms.h).
+std::vector<std::unique_ptr<Optimizer>> make_nlopt_optimizers();
+
+}  // namespace espalier
