@@ -11,4 +11,9 @@ constexpr float base_row_px(int size_px) { return static_cast<float>(size_px) * 
 inline constexpr float kFramedHeight = 0.92f;
 inline constexpr float kFramedHalfWidth = 0.48f;
 
+inline constexpr int kMinFrameSize = 16, kMaxFrameSize = 4096;
+
+/// Throws InputError outside kMinFrameSize..kMaxFrameSize.
+void check_frame_size(int size_px);
+
 }  // namespace espalier
