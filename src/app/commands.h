@@ -12,6 +12,8 @@ namespace espalier {
 /// input).
 int run_program(int argc, const char* const* argv);
 
+void add_target_command(CLI::App& app);
+void add_compare_command(CLI::App& app);
 void add_species_command(CLI::App& app);
 void add_params_command(CLI::App& app);
 void add_completion_command(CLI::App& app);

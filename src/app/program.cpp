@@ -28,6 +28,8 @@ int run_program(int argc, const char* const* argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text, "Print the version, the commit and the libraries");
   // Commands, in the order of the help.
+  add_target_command(app);
+  add_compare_command(app);
   add_species_command(app);
   add_params_command(app);
   add_completion_command(app);

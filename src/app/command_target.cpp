@@ -1,0 +1,42 @@
+// espalier target: shows what a fit will see of a picture, and says how that mask was made.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "app/commands.h"
+#include "app/target_options.h"
+#include "image/picture.h"
+#include "image/read_target.h"
+
+namespace espalier {
+
+namespace {
+
+struct TargetPaths {
+  std::string image, output;
+};
+
+void run_target(const TargetPaths& paths, const TargetOptions& options) {
+  const TargetPicture target = read_target(paths.image, options);
+  write_mask_png(paths.output, target.mask);
+  const double share = static_cast<double>(area_px(target.mask)) / options.size_px / options.size_px;
+  fmt::print("{}: {}\n", paths.image, target.how);
+  fmt::print("{}: {}×{} px, the tree is {:.1f} px tall and covers {:.1f} %\n", paths.output, options.size_px,
+             options.size_px, target.tree_height_px, 100 * share);
+}
+
+}  // namespace
+
+void add_target_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("target", "Show the mask that a fit will see of a picture");
+  const auto paths = std::make_shared<TargetPaths>();
+  command->add_option("image", paths->image, "the picture")->required();
+  command->add_option("-o,--output", paths->output, "the mask to write (PNG)")->required();
+  const auto options = add_target_options(*command);
+  command->add_option("--size", options->size_px, "side of the square mask in pixels")->capture_default_str();
+  command->callback([paths, options] { run_target(*paths, *options); });
+}
+
+}  // namespace espalier
