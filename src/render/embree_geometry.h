@@ -1,6 +1,6 @@
 // The three kinds of geometry in a plant's Embree scene, as arrays that Embree reads in place:
-// round Bézier curves for stems, flat polygons for leaves (user geometry: a triangulated leaf would be
-// five to twelve primitives), triangles for blossoms. Metres.
+// cones or round Bézier curves for stems, flat polygons for leaves (user geometry: a triangulated leaf
+// would be five to twelve primitives), triangles for blossoms. Metres.
 // Segments and leaves without a finite, positive size are left out. Each struct is filled anew by
 // collect(), keeps its memory, and must outlive the commit and the rays of the geometry it is set on.
 #pragma once
@@ -15,19 +15,26 @@
 
 namespace espalier {
 
-/// One curve a segment. The radius is linear along it; open, flat ends.
-struct StemCurves {
+/// How a segment of a stem becomes primitives. Both have flat ends and a radius linear along the segment.
+enum class StemSurface {
+  cones,   ///< capped cones along a polyline close to the curve: traces 8 times as fast
+  curves,  ///< Embree's swept surface: the exact one, open at its ends
+};
+
+struct StemSegments {
   struct ControlPoint {
     float x, y, z, radius;
   };
 
-  void collect(const Plant& plant);
+  /// Cones stay within `tolerance_m` of the curve, and gaps between them at its joints below it.
+  void collect(const Plant& plant, StemSurface surface, float tolerance_m);
   void set_on(RTCGeometry geometry) const;
   std::size_t size() const { return first_control_point.size(); }
 
   std::vector<ControlPoint> control_points;
-  std::vector<std::uint32_t> first_control_point;  ///< of each curve
-  std::vector<std::uint32_t> first_knot;           ///< index in Plant::knots where the curve begins
+  std::vector<std::uint32_t> first_control_point;  ///< of each primitive
+  std::vector<std::uint8_t> neighbours;            ///< RTCCurveFlags of each cone
+  std::vector<std::uint32_t> knot;  ///< of each primitive: index in Plant::knots where its segment begins
 };
 
 /// One plane a leaf, with the outline that all share.

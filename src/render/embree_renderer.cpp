@@ -9,7 +9,7 @@ namespace {
 class EmbreeRenderer final : public SilhouetteRenderer {
  public:
   void draw(const Plant& plant, const Camera& camera, Mask& mask) override {
-    scene_.build(plant);
+    scene_.build(plant, stem_tolerance_m(plant, camera));
     scene_.trace(camera, mask);
   }
 

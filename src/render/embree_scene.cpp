@@ -1,6 +1,7 @@
-// Device, scene and geometries of Embree 3; tracing a mask in packets of 8 rays. Metres and pixels.
+// Device, scene and geometries of Embree 3; tracing a mask in tiles of 8×8 rays. Metres and pixels.
 #include "render/embree_scene.h"
 
+#include <algorithm>
 #include <limits>
 #include <new>
 
@@ -49,46 +50,60 @@ Bounds scene_box(RTCScene scene) {
   return {{box.lower_x, box.lower_y, box.lower_z}, {box.upper_x, box.upper_y, box.upper_z}};
 }
 
-constexpr int kPacket = 8;
+constexpr int kTile = 8;
 
-void set_ray(RTCRay8& rays, int i, const Ray& ray) {
-  rays.org_x[i] = ray.origin_m.x;
-  rays.org_y[i] = ray.origin_m.y;
-  rays.org_z[i] = ray.origin_m.z;
-  rays.dir_x[i] = ray.direction.x;
-  rays.dir_y[i] = ray.direction.y;
-  rays.dir_z[i] = ray.direction.z;
-  rays.tnear[i] = 0;
-  rays.tfar[i] = std::numeric_limits<float>::infinity();
-  rays.time[i] = 0;
-  rays.mask[i] = ~0u;
-  rays.id[i] = 0;
-  rays.flags[i] = 0;
+RTCRay embree_ray(const Ray& ray) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const Vec3 origin = ray.origin_m, direction = ray.direction;
+  return {origin.x, origin.y, origin.z, 0, direction.x, direction.y, direction.z, 0, kInfinity, ~0u, 0, 0};
 }
 
-/// Pixels [x, x + 8) of row y as bits, pixel x lowest. Rays beyond `end_x` stay off.
-unsigned trace_packet(RTCScene scene, RTCIntersectContext& context, const Camera& camera, int x, int y,
-                      int end_x) {
-  alignas(32) int valid[kPacket];
-  RTCRay8 rays;
-  for (int i = 0; i < kPacket; ++i) {
-    valid[i] = x + i < end_x ? -1 : 0;
-    set_ray(rays, i, camera_ray(camera, static_cast<float>(x + i) + 0.5f, static_cast<float>(y) + 0.5f));
+/// Traces the pixels [x, x + 8) × [y, y + 8) inside of `frame`; x is a multiple of 8.
+void trace_tile(RTCScene scene, const Camera& camera, const PixelRectangle& frame, int x, int y, Mask& mask) {
+  std::array<RTCRay, kTile * kTile> rays;
+  unsigned count = 0;
+  const int end_x = std::min(x + kTile, frame.end_x), end_y = std::min(y + kTile, frame.end_y);
+  for (int j = y; j < end_y; ++j)
+    for (int i = x; i < end_x; ++i)
+      rays[count++] =
+          embree_ray(camera_ray(camera, static_cast<float>(i) + 0.5f, static_cast<float>(j) + 0.5f));
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1M(scene, &context, rays.data(), count, sizeof(RTCRay));
+  const RTCRay* ray = rays.data();
+  for (int j = y; j < end_y; ++j) {
+    std::uint64_t bits = 0;
+    for (int i = x; i < end_x; ++i) bits |= std::uint64_t{ray++->tfar < 0} << (i % 64);
+    mask.row(j)[static_cast<std::size_t>(x / 64)] |= bits;
   }
-  rtcOccluded8(valid, scene, &context, &rays);
-  unsigned bits = 0;
-  for (int i = 0; i < kPacket; ++i) bits |= (valid[i] && rays.tfar[i] < 0 ? 1u : 0u) << i;
-  return bits;
+}
+
+/// The nearest depth of the knots; leaves stand at most a leaf nearer.
+float nearest_depth_m(const Plant& plant, const Camera& camera) {
+  float nearest_m = std::numeric_limits<float>::infinity();
+  for (const Vec3 point : plant.knots.point_m)
+    nearest_m = std::min(nearest_m, dot(point - camera.position_m, camera.forward));
+  return nearest_m;
 }
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(SceneQuality quality) : device_(new_device()), scene_(rtcNewScene(device_)) {
+float stem_tolerance_m(const Plant& plant, const Camera& camera) {
+  constexpr float kPixels = 0.125f, kSmallestM = 1e-6f;
+  if (camera.projection == Projection::orthographic)
+    return std::max(kSmallestM, kPixels * camera.metres_per_px);
+  return std::max(kSmallestM, kPixels * camera.metres_per_px * nearest_depth_m(plant, camera));
+}
+
+EmbreeScene::EmbreeScene(SceneQuality quality, StemSurface surface)
+    : device_(new_device()), scene_(rtcNewScene(device_)), surface_(surface) {
   rtcSetSceneBuildQuality(scene_, build_quality(quality));
-  constexpr std::array<RTCGeometryType, 3> kTypes{RTC_GEOMETRY_TYPE_ROUND_BEZIER_CURVE,
-                                                  RTC_GEOMETRY_TYPE_USER, RTC_GEOMETRY_TYPE_TRIANGLE};
-  for (unsigned part = 0; part < kTypes.size(); ++part) {
-    geometries_[part] = rtcNewGeometry(device_, kTypes[part]);
+  const std::array<RTCGeometryType, 3> types{surface == StemSurface::cones
+                                                 ? RTC_GEOMETRY_TYPE_CONE_LINEAR_CURVE
+                                                 : RTC_GEOMETRY_TYPE_ROUND_BEZIER_CURVE,
+                                             RTC_GEOMETRY_TYPE_USER, RTC_GEOMETRY_TYPE_TRIANGLE};
+  for (unsigned part = 0; part < types.size(); ++part) {
+    geometries_[part] = rtcNewGeometry(device_, types[part]);
     rtcSetGeometryBuildQuality(geometries_[part], build_quality(quality));
     rtcAttachGeometryByID(scene_, geometries_[part], part);
   }
@@ -101,8 +116,8 @@ EmbreeScene::~EmbreeScene() {
   rtcReleaseDevice(device_);
 }
 
-void EmbreeScene::build(const Plant& plant) {
-  stems_.collect(plant);
+void EmbreeScene::build(const Plant& plant, float tolerance_m) {
+  stems_.collect(plant, surface_, tolerance_m);
   leaves_.collect(plant);
   blossoms_.collect(plant);
   update(geometries_[kStemPart], stems_);
@@ -120,13 +135,9 @@ void EmbreeScene::trace(const Camera& camera, Mask& mask) const {
     mask.clear();
   const Camera traced = moved_before(camera, box_m_);
   const PixelRectangle frame = covered_pixels(traced, box_m_);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  for (int y = frame.begin_y; y < frame.end_y; ++y)
-    for (int x = frame.begin_x & ~(kPacket - 1); x < frame.end_x; x += kPacket)
-      mask.row(y)[static_cast<std::size_t>(x / 64)] |=
-          std::uint64_t{trace_packet(scene_, context, traced, x, y, frame.end_x)} << (x % 64);
+  for (int y = frame.begin_y; y < frame.end_y; y += kTile)
+    for (int x = frame.begin_x - frame.begin_x % kTile; x < frame.end_x; x += kTile)
+      trace_tile(scene_, traced, frame, x, y, mask);
 }
 
 }  // namespace espalier

@@ -20,15 +20,21 @@ enum class SceneQuality { fast_build, fast_trace };
 /// What a ray hits: Embree's geomID.
 enum PlantPart : unsigned { kStemPart = 0, kLeafPart = 1, kBlossomPart = 2 };
 
+/// How closely a picture by `camera` needs stems to be followed: an eighth of a pixel where the plant is
+/// nearest.
+float stem_tolerance_m(const Plant& plant, const Camera& camera);
+
 class EmbreeScene {
  public:
-  explicit EmbreeScene(SceneQuality quality = SceneQuality::fast_build);
+  explicit EmbreeScene(SceneQuality quality = SceneQuality::fast_build,
+                       StemSurface surface = StemSurface::cones);
   ~EmbreeScene();
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-  /// Replaces the contents. The plant is copied: it may change or vanish afterwards.
-  void build(const Plant& plant);
+  /// Replaces the contents. Cones keep within `tolerance_m` (> 0) of the stems' curves.
+  /// The plant is copied: it may change or vanish afterwards.
+  void build(const Plant& plant, float tolerance_m);
 
   /// Sets the pixels whose centre's ray meets the scene. `mask` gets the camera's size.
   void trace(const Camera& camera, Mask& mask) const;
@@ -37,7 +43,7 @@ class EmbreeScene {
   Bounds box_m() const { return box_m_; }
 
   RTCScene handle() const { return scene_; }
-  const StemCurves& stems() const { return stems_; }
+  const StemSegments& stems() const { return stems_; }
   const LeafPolygons& leaves() const { return leaves_; }
   const BlossomTriangles& blossoms() const { return blossoms_; }
 
@@ -45,7 +51,8 @@ class EmbreeScene {
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
   std::array<RTCGeometry, 3> geometries_{};
-  StemCurves stems_;
+  StemSurface surface_;
+  StemSegments stems_;
   LeafPolygons leaves_;
   BlossomTriangles blossoms_;
   Bounds box_m_;

@@ -16,7 +16,8 @@ class SilhouetteRenderer {
   virtual void draw(const Plant& plant, const Camera& camera, Mask& mask) = 0;
 };
 
-/// The reference: traces rays with Embree 3 (round Bézier curves for stems, triangles for leaves).
+/// The reference: traces rays with Embree 3. Stems are cones along the curves, fine enough for the largest
+/// picture; leaves are their polygons (render/embree_geometry.h).
 std::unique_ptr<SilhouetteRenderer> make_embree_renderer();
 
 }  // namespace espalier
