@@ -28,10 +28,11 @@ float leaf_count(const GrowingStem& stem, const WeberPennParameters& p) {
   return stem.level == 0 ? count : count * stem.length_m / (stem.parent_child_max * stem.parent_length_m);
 }
 
-ChildPlacer::ChildPlacer(const GrowingStem& stem, float count, const WeberPennParameters& parameters)
+ChildPlacer::ChildPlacer(const GrowingStem& stem, Bears bears, const WeberPennParameters& parameters)
     : p_(parameters),
+      bears_(bears),
       stem_(stem),
-      count_(count),
+      count_(bears == Bears::leaves ? leaf_count(stem, parameters) : child_stem_count(stem, parameters)),
       child_level_(level_index(stem.level + 1)),
       distribution_(parameters.branch_dist[child_level_]),
       rotation_deg_(360 * draw_unit(stem.key, Draw::child_rotation_start)) {}
@@ -41,8 +42,9 @@ void ChildPlacer::begin(const GrowingStem& stem, const Segment& segment) {
   stem_ = stem;
   segment_ = segment;
   last_segment_ = segment.z_end >= 1;
-  const float started = 1 - static_cast<float>(stem_.first_segment) / segments;
-  rate_ = std::max(0.f, count_) * stem.branch_factor * started / segments;
+  const float grown_part = 1 - static_cast<float>(stem.first_segment) / static_cast<float>(segments);
+  const float share = bears_ == Bears::leaves ? grown_part : stem.child_share;
+  rate_ = std::max(0.f, count_) * share / static_cast<float>(segments);
   before_ = reached_;
   reached_ += rate_;
 }
@@ -61,7 +63,7 @@ bool ChildPlacer::next_along(ChildSite& site) {
     site.index = placed_;
     site.grown_fraction = missing > kRounding ? 1 - missing : 1;
     const float shift = placed_ % 2 == 1 ? distribution_ : 0;  // 1: opposite the one before it
-    const float t = (static_cast<float>(placed_) + 0.5f - shift - before_) / rate_;
+    const float t = (static_cast<float>(placed_) - shift - before_) / rate_;
     ++placed_;
     const float roll_deg = next_rotation_deg();
     if (site.grown_fraction > 0 && site_at(std::clamp(t, 0.f, 1.f), roll_deg, site)) return true;
@@ -74,7 +76,7 @@ bool ChildPlacer::next_in_whorl(ChildSite& site) {
   const float size = distribution_ + 1;
   while (rate_ > 0) {
     const float whorl_center = (static_cast<float>(whorl_) + 0.5f) * size;
-    if (whorl_center > reached_) return false;
+    if (static_cast<float>(whorl_ + 1) * size > reached_) return false;
     const int members = static_cast<int>((whorl_ + 1) * size) - static_cast<int>(whorl_ * size);
     if (in_whorl_ >= members) {
       ++whorl_;

@@ -25,8 +25,10 @@ float leaf_count(const GrowingStem& stem, const WeberPennParameters& parameters)
 /// child i appears in the segment in which the running count passes i + 1, at the middle of its share.
 class ChildPlacer {
  public:
-  /// `count` as above, for the whole stem if it were no clone and did not split.
-  ChildPlacer(const GrowingStem& stem, float count, const WeberPennParameters& parameters);
+  enum class Bears { stems, leaves };
+
+  /// Counts are those above, for the whole stem if it were no clone and did not split.
+  ChildPlacer(const GrowingStem& stem, Bears bears, const WeberPennParameters& parameters);
 
   /// Starts a segment; then next() yields its children until it returns false.
   void begin(const GrowingStem& stem, const Segment& segment);
@@ -42,6 +44,7 @@ class ChildPlacer {
   Turtle frame_at(float t) const;
 
   const WeberPennParameters& p_;
+  Bears bears_;
   GrowingStem stem_;
   Segment segment_;
   float count_;

@@ -53,9 +53,9 @@ class Growth::StemGrowth : public StemVisitor {
     const bool last_level = stem.level + 1 >= growth.p_.level_count();
     bears_leaves_ = last_level && growth.p_.leaf_blos_num != 0;
     if (bears_leaves_)
-      children_.emplace(stem, leaf_count(stem, growth.p_), growth.p_);
+      children_.emplace(stem, ChildPlacer::Bears::leaves, growth.p_);
     else if (!last_level)
-      children_.emplace(stem, child_stem_count(stem, growth.p_), growth.p_);
+      children_.emplace(stem, ChildPlacer::Bears::stems, growth.p_);
   }
 
   bool segment(const GrowingStem& stem, const Segment& segment) override {

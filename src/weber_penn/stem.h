@@ -63,7 +63,8 @@ struct GrowingStem {
   // The state of splitting, handed on to clones.
   int first_segment = 0;
   float clone_probability = 1;
-  float branch_factor = 1;
+  float branch_factor = 1;         ///< handed to clones, not below 0.8
+  float child_share = 1;           ///< of the children that an unsplit stem would bear per segment
   float split_correction_deg = 0;  ///< paid back at each later segment end
 };
 

@@ -34,9 +34,17 @@ void apply_tropism(GrowingStem& stem, const WeberPennParameters& p) {
   if (strength > 1e-9f) stem.turtle.rotate_about(axis * (1 / strength), 10 * strength);
 }
 
+constexpr unsigned kFirstCloneIndex = 1'000'000, kClonesPerSplit = 16;  ///< keys beyond those of children
+
 struct SplitState {
   float error;  ///< of the error diffusion of seg_splits along this stem
 };
+
+/// Trunks start at 0 as in the published implementation, all else at random: the mean is the same.
+float first_split_error(const GrowingStem& stem) {
+  const bool is_trunk = stem.level == 0 && stem.first_segment == 0;
+  return is_trunk ? 0 : draw_unit(stem.key, Draw::split_error);
+}
 
 bool is_base_split(const GrowingStem& stem, int at, const WeberPennParameters& p) {
   const int base_segment =
@@ -61,66 +69,73 @@ int diffused_split_count(const GrowingStem& stem, SplitState& state, int at, con
   return count;
 }
 
-/// Turns one of count + 1 clones, `index` 0 being the stem itself, away from the others.
-void turn_clone(Turtle& turtle, int index, int count, float angle_deg, float spread_deg) {
-  turtle.pitch_down(angle_deg / 2);
-  turtle.rotate_about({0, 0, 1}, spread_deg * (static_cast<float>(index) / count - 0.5f));
-}
+/// How the parts of a split turn away from each other, in degrees.
+struct Fork {
+  float turn_deg = 0;        ///< between the outermost parts, in the plane of the stem
+  float pitch_deg = 0;       ///< of each part
+  float spread_deg = 0;      ///< between the outermost parts, about the world's z axis
+  float correction_deg = 0;  ///< paid back at each later segment end
+};
 
-/// split_angle < 0: all clones in the plane of the stem, not paid back.
-void split_flat(GrowingStem& stem, int at, int count, const WeberPennParameters& p, StemVisitor& visitor) {
+/// split_angle < 0: all parts in the plane of the stem, not paid back.
+Fork flat_fork(const GrowingStem& stem, int at, const WeberPennParameters& p) {
   const int level = level_index(stem.level);
-  const float angle_deg =
-      -p.split_angle[level] + draw_signed(stem.key, Draw::split_angle, at) * p.split_angle_v[level];
-  const Turtle before = stem.turtle;
-  stem.split_correction_deg = 0;
-  for (int index = count; index >= 0; --index) {
-    GrowingStem clone = stem;
-    clone.turtle = before;
-    clone.turtle.turn_right(angle_deg * (static_cast<float>(index) / count - 0.5f));
-    if (index == 0)
-      stem.turtle = clone.turtle;
-    else
-      clone.key = child_key(stem.key, 1'000'000u + 16u * at + index), visitor.split(clone);
-  }
+  return {.turn_deg =
+              -p.split_angle[level] + draw_signed(stem.key, Draw::split_angle, at) * p.split_angle_v[level]};
 }
 
-/// split_angle ≥ 0: clones lean away from the stem and are spread about the world's z axis; the angle is
-/// paid back over the remaining segments [Weber & Penn 95, §4.2].
-void split_round(GrowingStem& stem, int at, int count, bool at_base, const WeberPennParameters& p,
-                 StemVisitor& visitor) {
+/// split_angle ≥ 0: the parts lean away from the stem and are spread about z; the angle is paid back over the
+/// remaining segments [Weber & Penn 95, §4.2].
+Fork round_fork(const GrowingStem& stem, int at, int count, bool at_base, const WeberPennParameters& p) {
   const int level = level_index(stem.level);
   const float declination = declination_deg(stem.turtle.forward);
-  const float angle_deg =
-      std::max(0.f, p.split_angle[level] +
-                        draw_signed(stem.key, Draw::split_angle, at) * p.split_angle_v[level] - declination);
+  const float jitter_deg = draw_signed(stem.key, Draw::split_angle, at) * p.split_angle_v[level];
+  const float angle_deg = std::max(0.f, p.split_angle[level] + jitter_deg - declination);
   const float u = draw_unit(stem.key, Draw::split_spread, at);
-  const float spread_deg =
-      at_base ? 360.f * count / (count + 1) : -(20 + 0.75f * (30 + std::fabs(declination - 90) * u * u));
-  stem.split_correction_deg = angle_deg / static_cast<float>(segment_count(p, stem.level) - at);
-  const Turtle before = stem.turtle;
-  for (int index = count; index >= 0; --index) {
-    GrowingStem clone = stem;
-    clone.turtle = before;
-    turn_clone(clone.turtle, index, count, angle_deg, spread_deg);
-    if (index == 0)
-      stem.turtle = clone.turtle;
-    else
-      clone.key = child_key(stem.key, 1'000'000u + 16u * at + index), visitor.split(clone);
-  }
+  const float spread_deg = at_base ? 360.f * static_cast<float>(count) / static_cast<float>(count + 1)
+                                   : -(20 + 0.75f * (30 + std::fabs(declination - 90) * u * u));
+  return {.pitch_deg = angle_deg / 2,
+          .spread_deg = spread_deg,
+          .correction_deg = angle_deg / static_cast<float>(segment_count(p, stem.level) - at)};
 }
 
+/// Turns part `index` of count + 1, 0 being the stem itself.
+void turn_into_fork(Turtle& turtle, const Fork& fork, int index, int count) {
+  const float side = static_cast<float>(index) / static_cast<float>(count) - 0.5f;
+  turtle.turn_right(fork.turn_deg * side);
+  turtle.pitch_down(fork.pitch_deg);
+  turtle.rotate_about({0, 0, 1}, fork.spread_deg * side);
+}
+
+/// A split leaves less for each part: further splits are less likely, except after those at the base of the
+/// crown, and all parts bear fewer children, at a rate that falls with what is left of the stem.
+void thin_out(GrowingStem& stem, int at, int count, bool at_base, const WeberPennParameters& p) {
+  const float parts = static_cast<float>(count + 1);
+  if (!at_base) stem.clone_probability /= parts;
+  stem.branch_factor = std::max(0.8f, stem.branch_factor / parts);
+  stem.child_share = stem.branch_factor * (1 - static_cast<float>(at) / segment_count(p, stem.level));
+}
+
+GrowingStem make_clone(const GrowingStem& stem, int at, int index) {
+  GrowingStem clone = stem;
+  clone.key = child_key(stem.key, kFirstCloneIndex + kClonesPerSplit * static_cast<unsigned>(at) + index);
+  clone.first_segment = at;
+  return clone;
+}
+
+/// Splits at segment end `at` into count + 1: `count` clones, and the stem itself, which is turned as well.
 void split(GrowingStem& stem, int at, int count, bool at_base, const WeberPennParameters& p,
            StemVisitor& visitor) {
-  stem.clone_probability /= static_cast<float>(count + 1);
-  stem.branch_factor = std::max(0.8f, stem.branch_factor / static_cast<float>(count + 1));
-  const int previous_first = stem.first_segment;
-  stem.first_segment = at;
-  if (p.split_angle[level_index(stem.level)] < 0)
-    split_flat(stem, at, count, p, visitor);
-  else
-    split_round(stem, at, count, at_base, p, visitor);
-  stem.first_segment = previous_first;
+  thin_out(stem, at, count, at_base, p);
+  const Fork fork = p.split_angle[level_index(stem.level)] < 0 ? flat_fork(stem, at, p)
+                                                               : round_fork(stem, at, count, at_base, p);
+  stem.split_correction_deg = fork.correction_deg;
+  for (int index = 1; index <= count; ++index) {
+    GrowingStem clone = make_clone(stem, at, index);
+    turn_into_fork(clone.turtle, fork, index, count);
+    visitor.split(clone);
+  }
+  turn_into_fork(stem.turtle, fork, 0, count);
 }
 
 /// Moves the turtle by one segment, whose ends have handles of a third of its length along the heading.
@@ -157,7 +172,7 @@ Vec3 segment_tangent(const Segment& s, float t) {
 void walk_stem(GrowingStem stem, const WeberPennParameters& p, StemVisitor& visitor) {
   if (p.curve_v[level_index(stem.level)] < 0) return walk_helix(stem, p, visitor);
   const int segments = segment_count(p, stem.level);
-  SplitState state{draw_unit(stem.key, Draw::split_error)};
+  SplitState state{first_split_error(stem)};
   Vec3 heading = stem.turtle.forward;
   for (int index = stem.first_segment; index < segments; ++index) {
     const Segment segment = advance(stem, heading, index, segments);
