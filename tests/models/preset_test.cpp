@@ -1,0 +1,279 @@
+// Laws of presets: the bundled ones hold the published values, extending, writing and reading back.
+#include "models/preset.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "core/error.h"
+#include "models/models.h"
+#include "support/run_espalier.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with preset files that goes with its test.
+struct PresetFolder {
+  fs::path path = fresh_folder("presets");
+  ~PresetFolder() { fs::remove_all(path); }
+
+  std::string write(const std::string& name, const std::string& content) const {
+    std::ofstream(path / name, std::ios::binary) << content;
+    return (path / name).string();
+  }
+};
+
+double value_of(const Preset& preset, const std::string& name) {
+  return preset.values[model_by_name(preset.model).table().index_of(name)];
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+/// A value that the row accepts: its ends, whole numbers, and the bits between.
+rc::Gen<double> valid_value(const ParameterInfo& row) {
+  const bool whole = row.scale == Scale::choice || (row.scale == Scale::integer && !row.relaxable);
+  return rc::gen::map(rc::gen::inRange(0, 1'000'001), [row, whole](int draw) {
+    const double value = row.lower + (row.upper - row.lower) * draw / 1e6;
+    return std::clamp(whole ? std::round(value) : value, row.lower, row.upper) + 0.0;
+  });
+}
+
+TEST(Preset, BundledOnesHoldTheReferenceValues) {
+  std::ifstream csv(fs::path(ESPALIER_SHARED_DIR) / "reference/species.csv");
+  if (!csv) GTEST_SKIP() << "no " ESPALIER_SHARED_DIR "/reference/species.csv here";
+  std::string line;
+  std::getline(csv, line);
+  const std::vector<std::string> species = split(line);
+  std::map<std::string, Preset> presets;
+  for (std::size_t i = 1; i < species.size(); ++i) presets[species[i]] = load_preset(species[i]);
+  EXPECT_EQ(presets.size(), 19u);
+  while (std::getline(csv, line)) {
+    const std::vector<std::string> cells = split(line);
+    ASSERT_EQ(cells.size(), species.size()) << line;
+    for (std::size_t i = 1; i < cells.size(); ++i)
+      EXPECT_EQ(value_of(presets[species[i]], cells[0]), std::stod(cells[i]))
+          << species[i] << " " << cells[0];
+  }
+}
+
+TEST(Preset, BundledOnesAreSortedAndDescribed) {
+  const std::vector<std::string> names = bundled_presets();
+  EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+  EXPECT_THAT(names, testing::SizeIs(19));
+  for (const std::string& name : names) {
+    EXPECT_EQ(load_preset(name).name, name);
+    EXPECT_NE(load_preset(name).description, "");
+  }
+}
+
+TEST(Preset, BundledOnesAreTheFilesInTheSources) {
+  const fs::path folder = fs::path(ESPALIER_SOURCE_DIR) / "src/weber_penn/species";
+  for (const std::string& name : bundled_presets())
+    EXPECT_EQ(load_preset(name).values, load_preset((folder / (name + ".toml")).string()).values) << name;
+}
+
+TEST(Preset, WritingAndReadingKeepsEveryBit) {
+  const PresetFolder folder;
+  const ParameterTable& table = model_by_name("weber_penn").table();
+  rc::check([&] {
+    Preset preset{"a \"name\"", "tab\t, back\\slash, line\nfeed, ü", "weber_penn", {}};
+    for (const ParameterInfo& row : table.rows) preset.values.push_back(*valid_value(row));
+    const Preset again = load_preset(folder.write("random.toml", preset_to_toml(preset)));
+    RC_ASSERT(again.name == preset.name);
+    RC_ASSERT(again.description == preset.description);
+    for (std::size_t i = 0; i < preset.values.size(); ++i)
+      RC_ASSERT(std::bit_cast<std::uint64_t>(again.values[i]) ==
+                std::bit_cast<std::uint64_t>(preset.values[i]));
+  });
+}
+
+TEST(Preset, WhatItDoesNotNameIsTheModelsDefault) {
+  const PresetFolder folder;
+  const Preset preset = load_preset(folder.write("bare.toml", "model = \"weber_penn\"\n"));
+  EXPECT_EQ(preset.values, model_by_name("weber_penn").table().defaults());
+  EXPECT_EQ(preset.name, "bare");
+}
+
+TEST(Preset, ExtendingChangesOnlyWhatItNames) {
+  const PresetFolder folder;
+  const Preset base = load_preset("weeping_willow");
+  const Preset mine = load_preset(
+      folder.write("mine.toml", "extends = \"weeping_willow\"\ng_scale = 20\ncurve_v = [1, 2]\n"));
+  const ParameterTable& table = model_by_name("weber_penn").table();
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const std::string name = table.rows[i].full_name();
+    const std::map<std::string, double> changed = {{"g_scale", 20}, {"curve_v[0]", 1}, {"curve_v[1]", 2}};
+    EXPECT_EQ(mine.values[i], changed.contains(name) ? changed.at(name) : base.values[i]) << name;
+  }
+}
+
+TEST(Preset, ExtendingFollowsPathsFromTheFileItself) {
+  const PresetFolder folder;
+  fs::create_directory(folder.path / "below");
+  folder.write("base.toml", "extends = \"acer\"\nflare = 0.125\n");
+  const std::string mine = folder.write("below/mine.toml", "extends = \"../base.toml\"\nratio = 0.25\n");
+  EXPECT_EQ(value_of(load_preset(mine), "flare"), 0.125);
+  EXPECT_EQ(value_of(load_preset(mine), "ratio"), 0.25);
+}
+
+TEST(Preset, AFileMayExtendTheBundledPresetOfItsOwnName) {
+  const PresetFolder folder;
+  const std::string mine = folder.write("acer.toml", "extends = \"acer\"\nflare = 0.125\n");
+  EXPECT_EQ(value_of(load_preset(mine), "flare"), 0.125);
+}
+
+TEST(Preset, OneLevelAloneMayBeSet) {
+  const PresetFolder folder;
+  const std::string mine = folder.write("mine.toml", "extends = \"acer\"\n\"length[2]\" = 0.75\n");
+  EXPECT_EQ(value_of(load_preset(mine), "length[2]"), 0.75);
+  EXPECT_EQ(value_of(load_preset(mine), "length[1]"), value_of(load_preset("acer"), "length[1]"));
+}
+
+TEST(Preset, ChoicesAreNamesOrNumbers) {
+  const PresetFolder folder;
+  const std::string named =
+      folder.write("named.toml", "model = \"weber_penn\"\nshape = \"flame\"\nblossom_shape = \"magnolia\"\n");
+  const std::string numbered =
+      folder.write("numbered.toml", "model = \"weber_penn\"\nshape = 5\nblossom_shape = 3\n");
+  EXPECT_EQ(load_preset(named).values, load_preset(numbered).values);
+  EXPECT_EQ(value_of(load_preset(named), "shape"), 5);
+}
+
+TEST(Preset, TropismIsAVectorOrThreeNumbers) {
+  const PresetFolder folder;
+  const std::string vector = folder.write("vector.toml", "model = \"weber_penn\"\ntropism = [1, 2, 3]\n");
+  const std::string numbers =
+      folder.write("numbers.toml", "model = \"weber_penn\"\ntropism_x = 1\ntropism_y = 2\ntropism_z = 3\n");
+  EXPECT_EQ(load_preset(vector).values, load_preset(numbers).values);
+}
+
+TEST(Preset, NegativeZeroIsZero) {
+  const PresetFolder folder;
+  const Preset preset = load_preset(folder.write("zero.toml", "model = \"weber_penn\"\nflare = -0.0\n"));
+  EXPECT_FALSE(std::signbit(value_of(preset, "flare")));
+}
+
+TEST(Preset, ACycleIsAnErrorThatNamesTheKey) {
+  const PresetFolder folder;
+  folder.write("a.toml", "extends = \"b.toml\"\n");
+  const std::string b = folder.write("b.toml", "extends = \"a.toml\"\n");
+  try {
+    load_preset(b);
+    FAIL() << "expected InputError";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("a.toml:1: key 'extends': got 'b.toml'"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("expected no cycle"));
+  }
+}
+
+/// One fault in the file, and what its message must say.
+struct Fault {
+  const char* law;
+  std::string line;
+  std::string message;
+};
+
+class PresetFault : public testing::TestWithParam<Fault> {};
+
+TEST_P(PresetFault, IsOneLineWithPlaceGotAndExpected) {
+  const PresetFolder folder;
+  const std::string file = folder.write("bad.toml", "model = \"weber_penn\"\n" + GetParam().line + "\n");
+  try {
+    load_preset(file);
+    FAIL() << "expected InputError";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith(file + ":2: " + GetParam().message));
+    EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("\n")));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    One, PresetFault,
+    testing::Values(
+        Fault{"UnknownKey", "g_scal = 1", "key 'g_scal': got an unknown key, expected one like 'g_scale'"},
+        Fault{"NaN", "flare = nan", "key 'flare': got nan, expected a number 0..20"},
+        Fault{"Infinity", "flare = inf", "key 'flare': got inf, expected a number"},
+        Fault{"NegativeInfinity", "flare = -inf", "key 'flare': got -inf, expected a number"},
+        Fault{"VeryLarge", "g_scale = 1e308", "key 'g_scale': got 1e+308, expected a number"},
+        Fault{"BeyondDoubles", "g_scale = 1e999", "got bad TOML"},
+        Fault{"TooManyLevels", "levels = 9", "key 'levels': got 9, expected a whole number 1..4"},
+        Fault{"TooManyBranches", "branches = [1, 1e9]",
+              "key 'branches[1]': got 1000000000, expected a number"},
+        Fault{"FractionOfAWholeNumber", "curve_res = [5, 2.5]",
+              "key 'curve_res[1]': got 2.5, expected a whole number 0..100"},
+        Fault{"TextForANumber", "flare = \"wide\"", "key 'flare': got 'wide', expected a number 0..20"},
+        Fault{"TruthForANumber", "flare = true", "key 'flare': got true, expected a number"},
+        Fault{"DateForANumber", "flare = 2020-01-01", "key 'flare': got a date or time, expected a number"},
+        Fault{"ArrayForANumber", "flare = [1]", "key 'flare': got an array of 1, expected a number"},
+        Fault{"TableForANumber", "flare = {a = 1}", "key 'flare': got a table, expected a number"},
+        Fault{"NumberForAnArray", "length = 1", "key 'length': got 1, expected an array of at most 4 values"},
+        Fault{"TooLongAnArray", "length = [1, 1, 1, 1, 1]",
+              "key 'length': got an array of 5, expected an array of at most 4 values"},
+        Fault{"TextInAnArray", "length = [1, \"long\"]", "key 'length[1]': got 'long', expected a number"},
+        Fault{"UnknownChoice", "shape = \"cubic\"", "key 'shape': got 'cubic', expected one of conical, "},
+        Fault{"ChoiceOutOfRange", "shape = 9", "key 'shape': got 9, expected one of conical, "},
+        Fault{"NumberForADescription", "description = 1", "key 'description': got 1, expected a string"},
+        Fault{"DuplicateKey", "model = \"weber_penn\"", "got bad TOML"},
+        Fault{"BadSyntax", "flare = = 1", "got bad TOML"},
+        Fault{"ExtendsNothing", "extends = \"acre\"",
+              "key 'extends': got preset 'acre', expected a path or a bundled preset, the closest is 'acer'"},
+        Fault{"ExtendsAMissingFile", "extends = \"no.toml\"", "key 'extends': "}),
+    [](const auto& info) { return info.param.law; });
+
+std::string loading_error(const std::string& name_or_path) {
+  try {
+    load_preset(name_or_path);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Preset, AnUnknownNameIsAnsweredWithTheClosest) {
+  EXPECT_EQ(loading_error("quaking_aspn"),
+            "got preset 'quaking_aspn', expected a path or a bundled preset, the closest is 'quaking_aspen'");
+}
+
+TEST(Preset, AnUnknownModelListsTheKnownOnes) {
+  const PresetFolder folder;
+  const std::string file = folder.write("bad.toml", "model = \"oak\"\n");
+  EXPECT_THAT(loading_error(file),
+              testing::StartsWith(file + ":1: key 'model': got model 'oak', expected one of: weber_penn"));
+}
+
+TEST(Preset, AModelOtherThanTheExtendedOneIsRefused) {
+  const PresetFolder folder;
+  const std::string file = folder.write("bad.toml", "extends = \"acer\"\nmodel = \"oak\"\n");
+  EXPECT_EQ(loading_error(file), file + ":2: key 'model': got 'oak', expected 'weber_penn' as in 'acer'");
+}
+
+TEST(Preset, NoModelAtAllIsRefused) {
+  const PresetFolder folder;
+  EXPECT_THAT(loading_error(folder.write("bad.toml", "flare = 1\n")),
+              testing::HasSubstr("got no key 'model' or 'extends', expected model = \"weber_penn\""));
+}
+
+TEST(Preset, TheFaultOfAnExtendedFileIsNamedThere) {
+  const PresetFolder folder;
+  const std::string base = folder.write("base.toml", "model = \"weber_penn\"\n\nflare = -1\n");
+  EXPECT_THAT(loading_error(folder.write("mine.toml", "extends = \"base.toml\"\n")),
+              testing::StartsWith(base + ":3: key 'flare': got -1"));
+}
+
+}  // namespace
+}  // namespace espalier
