@@ -1,0 +1,257 @@
+#include "fitting/fit.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+#include "core/error.h"
+#include "fitting/fit_objective.h"
+#include "fitting/plant_scorer.h"
+#include "fitting/start_points.h"
+#include "models/models.h"
+
+namespace espalier {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kStartBatch = 8;  ///< start points scored between two looks at the clock
+constexpr std::size_t kMostStarts = 3;  ///< of the best, given to the optimiser
+constexpr double kRefreshSeconds = 3;   ///< the directory is at most this old, unless writing it is slow
+constexpr double kRefreshShare = 0.02;  ///< of the time, at most, is spent writing the directory
+
+/// The optimiser never sees the limit (LoggedScorer keeps it), so that it does the same for every limit.
+constexpr long kUnlimited = 1'000'000'000;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// FNV-1a over a mask's bits and the height of its tree, as hexadecimal digits.
+std::uint64_t hash_target(const TargetPicture& target, std::uint64_t hash) {
+  const auto add = [&hash](std::uint64_t word) {
+    for (int i = 0; i < 8; ++i, word >>= 8) hash = (hash ^ (word & 0xff)) * 0x100000001b3ull;
+  };
+  for (const std::uint64_t word : target.mask.words()) add(word);
+  add(static_cast<std::uint64_t>(target.tree_height_px * 256));
+  return hash;
+}
+
+double height_m(const FitRecord& record) { return record.height_m.value_or(kNominalHeightM); }
+
+/// Reads the pictures into the task and their hash into the record.
+void read_views(FitRecord& record, FitTask& task) {
+  std::uint64_t hash = 0xcbf29ce484222325ull;
+  for (const ViewRecord& view : record.views) {
+    const TargetPicture target = read_target(view.picture, record.target);
+    hash = hash_target(target, hash);
+    task.views.push_back(make_target_view(target.mask, target.tree_height_px, view.view, height_m(record)));
+  }
+  const std::string hash_text = fmt::format("{:016x}", hash);
+  if (!record.target_hash.empty() && record.target_hash != hash_text)
+    throw_input_error("{}: got another picture than the run was begun with (hash {}, expected {})",
+                      record.views.front().picture.string(), hash_text, record.target_hash);
+  record.target_hash = hash_text;
+}
+
+FitTask make_task(FitRecord& record, const FitOptions& options) {
+  FitTask task;
+  task.model = options.model ? options.model : &model_by_name(record.model);
+  task.growth.budget = record.growth;
+  task.objective = parse_objective(record.objective);
+  task.make_renderer = options.make_renderer;
+  for (int i = 0; i < record.fit_seeds; ++i) task.plant_seeds.push_back(record.seed + static_cast<Seed>(i));
+  read_views(record, task);
+  return task;
+}
+
+struct StopAtOnce : Observer {
+  bool stop_requested() override { return true; }
+};
+
+struct NoScorer : Scorer {
+  void score(std::span<const ParameterValues>, std::span<double> scores) override {
+    std::fill(scores.begin(), scores.end(), 1.0);
+  }
+};
+
+/// Lets the optimiser check space and settings before anything is written: it stops before it begins.
+void check_optimizer(const FitRecord& record, const SearchSpace& space) {
+  NoScorer no_scorer;
+  StopAtOnce stop;
+  optimizer_by_name(record.optimizer)
+      .minimize(FitObjective(space, no_scorer), record.optimizer_settings, {kUnlimited}, {}, record.seed,
+                stop);
+}
+
+/// One run: its state, its clock, and when it stops.
+class FitRun : public Observer {
+ public:
+  FitRun(const FitRecord& record, const FitTask& task, const fs::path& directory, const FitOptions& options)
+      : record_(record),
+        task_(task),
+        directory_(directory),
+        options_(options),
+        state_{.record = record, .task = task},
+        log_(directory / "evaluations.bin"),
+        plant_scorer_(task, options.threads > 0 ? options.threads : omp_get_num_procs()),
+        scorer_(
+            plant_scorer_, log_, record.budget.evaluations, [this] { return seconds(); },
+            [this](const ScoredBatch& batch) { on_scored(batch); }),
+        renderer_(task.make_renderer()) {}
+
+  FitResult run(const std::vector<StartPoint>& starts);
+  bool stop_requested() override;
+
+ private:
+  double seconds() const { return seconds_before_ + seconds_since(live_since_); }
+  void on_scored(const ScoredBatch& batch);
+  void refresh_directory();
+  std::vector<double> score_starts(const std::vector<StartPoint>& starts);
+  void search(const std::vector<StartPoint>& starts, const std::vector<double>& scores);
+  void report_progress() const;
+  FitResult finish();
+
+  const FitRecord& record_;
+  const FitTask& task_;
+  fs::path directory_;
+  const FitOptions& options_;
+  RunState state_;
+  EvaluationLog log_;
+  PlantScorer plant_scorer_;
+  LoggedScorer scorer_;
+  std::unique_ptr<SilhouetteRenderer> renderer_;
+  std::size_t dimension_ = 0;
+  double seconds_before_ = 0;  ///< of the run up to live_since_
+  Clock::time_point live_since_ = Clock::now();
+  double refreshed_at_ = 0, refresh_cost_ = 0;
+};
+
+bool FitRun::stop_requested() {
+  if (state_.stopped_by) return true;
+  const FitBudget& budget = record_.budget;
+  if (scorer_.limit_reached())
+    state_.stopped_by = "evaluations";
+  else if (budget.target_fitness > 0 && 1 - scorer_.best().score >= budget.target_fitness)
+    state_.stopped_by = "target_fitness";
+  else if (scorer_.replaying())
+    return false;
+  else if (options_.stop_requested())
+    state_.stopped_by = "interrupted";
+  else if (budget.seconds > 0 && seconds() >= budget.seconds)
+    state_.stopped_by = "time";
+  return state_.stopped_by.has_value();
+}
+
+void FitRun::on_scored(const ScoredBatch& batch) {
+  if (batch.replayed) {
+    seconds_before_ = batch.seconds;
+    live_since_ = Clock::now();
+  }
+  if (batch.improved)
+    state_.best_metrics = mean_metrics(task_, draw_candidate(task_, scorer_.best().values, *renderer_));
+  state_.trace.add(batch, scorer_.best().score, state_.best_metrics);
+  if (batch.replayed) return;
+  if (seconds() - refreshed_at_ > std::max(kRefreshSeconds, refresh_cost_ / kRefreshShare))
+    refresh_directory();
+  report_progress();
+}
+
+void FitRun::refresh_directory() {
+  const double began = seconds();
+  state_.best = scorer_.best();
+  state_.evaluations = static_cast<long>(scorer_.evaluations());
+  state_.seconds = began;
+  write_run_directory(directory_, state_);
+  refreshed_at_ = seconds();
+  refresh_cost_ = refreshed_at_ - began;
+}
+
+void FitRun::report_progress() const {
+  const FitBudget& budget = record_.budget;
+  FitProgress progress{scorer_.evaluations(), seconds(), 1 - scorer_.best().score, {}};
+  if (budget.seconds > 0) progress.seconds_left = std::max(0.0, budget.seconds - progress.seconds);
+  if (budget.evaluations > 0) {
+    const auto left = static_cast<double>(budget.evaluations - progress.evaluations);
+    const double by_count = left * progress.seconds / static_cast<double>(progress.evaluations);
+    progress.seconds_left = std::min(by_count, progress.seconds_left.value_or(by_count));
+  }
+  options_.on_progress(progress);
+}
+
+std::vector<double> FitRun::score_starts(const std::vector<StartPoint>& starts) {
+  std::vector<ParameterValues> candidates;
+  for (const StartPoint& start : starts) candidates.push_back(start.values);
+  std::vector<double> scores(candidates.size(), kNotEvaluated);
+  for (std::size_t first = 0; first < scores.size(); first += kStartBatch) {
+    if (first > 0 && stop_requested()) break;
+    const std::size_t count = std::min(kStartBatch, scores.size() - first);
+    scorer_.score(std::span(candidates).subspan(first, count), std::span(scores).subspan(first, count));
+  }
+  for (std::size_t i = 0; i < scores.size(); ++i)
+    if (scores[i] < kNotEvaluated) state_.starts.push_back({starts[i].name, 1 - scores[i]});
+  return scores;
+}
+
+void FitRun::search(const std::vector<StartPoint>& starts, const std::vector<double>& scores) {
+  std::vector<std::size_t> order(starts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return scores[a] < scores[b]; });
+  const SearchSpace space = make_search_space(task_.model->table(), starts[order[0]].values, record_.search,
+                                              height_m(record_) / kNominalHeightM);
+  dimension_ = space.dimension();
+  if (stop_requested()) return;
+  std::vector<double> points;
+  for (std::size_t i = 0; i < std::min(kMostStarts, order.size()); ++i) {
+    const std::vector<double> point = space.encode(starts[order[i]].values);
+    points.insert(points.end(), point.begin(), point.end());
+  }
+  const FitObjective objective(space, scorer_);
+  optimizer_by_name(record_.optimizer)
+      .minimize(objective, record_.optimizer_settings, {kUnlimited}, points, record_.seed, *this);
+  if (!stop_requested()) state_.stopped_by = "converged";
+}
+
+FitResult FitRun::finish() {
+  refresh_directory();
+  const auto best_start =
+      std::max_element(state_.starts.begin(), state_.starts.end(),
+                       [](const auto& a, const auto& b) { return a.fitness < b.fitness; });
+  return {.values = state_.best.values,
+          .fitness = 1 - state_.best.score,
+          .metrics = state_.best_metrics,
+          .evaluations = state_.evaluations,
+          .seconds = state_.seconds,
+          .stopped_by = *state_.stopped_by,
+          .best_start = best_start->name,
+          .dimension = dimension_};
+}
+
+FitResult FitRun::run(const std::vector<StartPoint>& starts) {
+  const std::vector<double> scores = score_starts(starts);
+  search(starts, scores);
+  return finish();
+}
+
+}  // namespace
+
+FitResult fit(const FitRecord& given, const fs::path& directory, const FitOptions& options) {
+  options.resume ? check_run_directory(directory) : check_new_directory(directory);
+  check_record(given);
+  FitRecord record = given;
+  const FitTask task = make_task(record, options);
+  const ParameterTable& table = task.model->table();
+  check_optimizer(record, make_search_space(table, table.defaults(), record.search));
+  const std::vector<StartPoint> starts = make_start_points(
+      *task.model, record.start, record.search, record.growth, height_m(record), task.plant_seeds.front());
+  begin_run_directory(directory, {.record = record, .task = task});
+  return FitRun(record, task, directory, options).run(starts);
+}
+
+}  // namespace espalier

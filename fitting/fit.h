@@ -1,0 +1,47 @@
+// A fit, from its record to its directory: reads the target, scores presets as start points, searches
+// from the best of them, and keeps the directory up to date while it runs.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "fitting/fit_record.h"
+#include "fitting/fit_task.h"
+#include "fitting/run_directory.h"
+
+namespace espalier {
+
+struct FitProgress {
+  long evaluations = 0;
+  double seconds = 0, best_fitness = 0;
+  std::optional<double> seconds_left;  ///< of whichever limit comes first, if it can be told
+};
+
+/// What a run needs besides its record, and what does not change its result.
+struct FitOptions {
+  int threads = 0;               ///< 0: one for each processor
+  bool resume = false;           ///< go on with the run in the directory
+  const Model* model = nullptr;  ///< instead of the record's model by name; not owned
+  RendererFactory make_renderer = make_embree_renderer;
+  std::function<bool()> stop_requested = [] { return false; };  ///< asked before each batch
+  std::function<void(const FitProgress&)> on_progress = [](const FitProgress&) {};
+};
+
+struct FitResult {
+  ParameterValues values;
+  double fitness = 0;  ///< 1 - dissimilarity
+  MaskMetrics metrics;
+  long evaluations = 0;
+  double seconds = 0;
+  std::string stopped_by;  ///< "evaluations", "time", "target_fitness", "interrupted", "converged"
+  std::string best_start;
+  std::size_t dimension = 0;
+};
+
+/// Runs the fit. All input is checked before `directory` is made. Throws InputError, for the record, its
+/// files, a directory that holds anything (without resume), or a run whose target changed (with it).
+FitResult fit(const FitRecord& record, const std::filesystem::path& directory,
+              const FitOptions& options = {});
+
+}  // namespace espalier

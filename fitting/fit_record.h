@@ -1,0 +1,72 @@
+// The record of a fit: everything that repeats it, as TOML (run.toml). Two runs of one record give the
+// same bits, whatever the threads; one that was stopped by time repeats by the evaluations it made.
+#pragma once
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fitting/optimizer.h"
+#include "fitting/search_space.h"
+#include "image/read_target.h"
+#include "plant/model.h"
+#include "render/camera.h"
+
+namespace espalier {
+
+/// A picture of the tree and where it was taken from.
+struct ViewRecord {
+  std::filesystem::path picture;
+  View view;
+};
+
+/// Ends of a run; the first reached stops it. 0 means no limit; one of the first two must be set.
+struct FitBudget {
+  long evaluations = 0;
+  double seconds = 60;
+  double target_fitness = 0;  ///< 1 - dissimilarity, in (0, 1]; 0: none
+};
+
+struct FitRecord {
+  std::string model = "weber_penn";
+  std::vector<ViewRecord> views;  ///< at least one
+  TargetOptions target{.size_px = 128};
+  std::string target_hash;  ///< of the masks the fit saw; empty until they are read
+  std::string objective = "0.5*truncated_distance+0.5*iou";
+  int fit_seeds = 1;  ///< trees per candidate, grown with seeds seed, seed + 1, …
+  std::string optimizer = "cma_es";
+  OptimizerSettings optimizer_settings;
+  FitBudget budget;
+  GrowthBudget growth{20'000, 100'000};
+  Seed seed = 1;
+  std::string start = "auto";
+  SearchChoice search;
+  std::optional<double> height_m;
+  std::map<std::string, std::string> versions;  ///< of the program and its libraries
+};
+
+/// What a finished run adds to its record.
+struct FitOutcome {
+  long evaluations = 0;
+  std::string stopped_by;
+};
+
+/// Throws InputError where numbers are out of their ranges or names unknown (optimiser, objective, model).
+void check_record(const FitRecord& record);
+
+std::string record_to_toml(const FitRecord& record, const std::optional<FitOutcome>& outcome);
+
+struct RecordedRun {
+  FitRecord record;
+  std::optional<FitOutcome> outcome;
+};
+
+/// Reads run.toml. Throws InputError with file, line, key, got and expected.
+RecordedRun read_record(const std::filesystem::path& path);
+
+/// "FILE", "FILE:azimuth,elevation" or "FILE:azimuth,elevation,field_of_view" (degrees; with the
+/// last one in perspective). Throws InputError on numbers that are none or out of range.
+ViewRecord parse_view(const std::string& text);
+
+}  // namespace espalier

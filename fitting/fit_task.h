@@ -1,0 +1,46 @@
+// What a fit compares: the target masks with their cameras, the seeds trees are grown with, the
+// objective and the growth budget. The target is "a tree H metres tall": H sets the scale of all cameras.
+#pragma once
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/random.h"
+#include "image/compare.h"
+#include "plant/model.h"
+#include "render/camera.h"
+#include "render/silhouette.h"
+
+namespace espalier {
+
+/// Height of the target in metres where the user gives none.
+inline constexpr double kNominalHeightM = 10;
+
+using RendererFactory = std::function<std::unique_ptr<SilhouetteRenderer>()>;
+
+struct TargetView {
+  Camera camera;
+  PreparedTarget target;
+};
+
+/// A target mask whose tree, `tree_height_px` tall with its base at base_row_px, is `height_m` tall.
+TargetView make_target_view(const Mask& mask, float tree_height_px, const View& view, double height_m);
+
+struct FitTask {
+  const Model* model = nullptr;  ///< not owned
+  GrowthSettings growth;
+  std::vector<Seed> plant_seeds;
+  std::vector<TargetView> views;
+  MaskObjective objective;
+  RendererFactory make_renderer = make_embree_renderer;
+};
+
+/// The silhouettes of one candidate: seed by seed, and for each seed view by view. Empty masks where
+/// the growth budget refuses the candidate.
+std::vector<Mask> draw_candidate(const FitTask& task, const ParameterValues& values,
+                                 SilhouetteRenderer& renderer);
+
+/// All metrics, averaged over masks in the order of draw_candidate.
+MaskMetrics mean_metrics(const FitTask& task, const std::vector<Mask>& masks);
+
+}  // namespace espalier

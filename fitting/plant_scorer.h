@@ -1,0 +1,36 @@
+// Scores candidates by growing, drawing and comparing them: the mean dissimilarity over all plant seeds
+// and views, in [0, 1]. A candidate beyond the growth budget is not grown; it scores
+// 1 + log10(factor by which it exceeds the budget), worse than any tree and finite.
+// Parallel over (candidate, seed), reduced in index order: the same bits for any number of threads.
+#pragma once
+#include <vector>
+
+#include "fitting/fit_task.h"
+#include "fitting/scorer.h"
+
+namespace espalier {
+
+class PlantScorer : public Scorer {
+ public:
+  /// threads: at least 1. `task` must outlive the scorer.
+  PlantScorer(const FitTask& task, int threads);
+  void score(std::span<const ParameterValues> candidates, std::span<double> scores) override;
+
+ private:
+  /// What a thread keeps from one candidate to the next.
+  struct Worker {
+    std::unique_ptr<SilhouetteRenderer> renderer;
+    Plant plant;
+    Mask mask;
+  };
+  double score_one(const ParameterValues& values, Seed seed, Worker& worker) const;
+
+  const FitTask& task_;
+  std::vector<Worker> workers_;
+  std::vector<double> scores_by_seed_;
+};
+
+/// The score of a candidate that exceeds its growth budget `factor` times (> 1).
+double over_budget_penalty(double factor);
+
+}  // namespace espalier

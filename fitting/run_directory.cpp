@@ -1,0 +1,149 @@
+#include "fitting/run_directory.h"
+
+#include <algorithm>
+#include <bit>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "image/picture.h"
+#include "models/preset.h"
+
+namespace espalier {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kOverlayPx = 512;  ///< overlays are enlarged to about this
+
+/// "best.png" for the first mask, "best_2.png" for the second.
+fs::path numbered(const fs::path& directory, const std::string& stem, std::size_t index) {
+  return directory / (index == 0 ? stem + ".png" : fmt::format("{}_{}.png", stem, index + 1));
+}
+
+Picture enlarged(const Picture& picture, int factor) {
+  Picture large(picture.width_px * factor, picture.height_px * factor);
+  for (int y = 0; y < large.height_px; ++y)
+    for (int x = 0; x < large.width_px; ++x) large.at(x, y) = picture.at(x / factor, y / factor);
+  return large;
+}
+
+std::size_t disagreement_px(const std::vector<Mask>& a, const std::vector<Mask>& b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t w = 0; w < a[i].words().size(); ++w)
+      count += static_cast<std::size_t>(std::popcount(a[i].words()[w] ^ b[i].words()[w]));
+  return count;
+}
+
+std::string best_to_toml(const RunState& state) {
+  const std::string stem = state.record.views.front().picture.stem().string();
+  return preset_to_toml({stem + "_fit",
+                         fmt::format("fitted to {} with {}, seed {}: fitness {:.4f}",
+                                     state.record.views.front().picture.filename().string(),
+                                     state.record.optimizer, state.record.seed, 1 - state.best.score),
+                         state.record.model, state.best.values});
+}
+
+std::optional<FitOutcome> outcome_of(const RunState& state) {
+  if (!state.stopped_by) return std::nullopt;
+  return FitOutcome{state.evaluations, *state.stopped_by};
+}
+
+/// The first seed's masks of all views.
+void write_best_pictures(const fs::path& directory, RunState& state) {
+  const std::vector<Mask> best = draw_candidate(state.task, state.best.values, *state.task.make_renderer());
+  const std::vector<Mask> reference = draw_candidate(state.task, state.best.values, *make_embree_renderer());
+  state.embree_disagreement_px = disagreement_px(best, reference);
+  for (std::size_t i = 0; i < state.task.views.size(); ++i) {
+    const Mask& target = state.task.views[i].target.mask();
+    write_mask_png(numbered(directory, "best", i), best[i]);
+    write_png(numbered(directory, "overlay", i),
+              enlarged(overlay(best[i], target), std::max(1, kOverlayPx / target.width_px())));
+  }
+}
+
+void write_history(const fs::path& directory, const RunState& state) {
+  const LineChart chart = convergence_chart(state.trace.rows());
+  write_file_atomically(directory / "trace.csv", trace_to_csv(state.trace.rows()));
+  write_file_atomically(directory / "convergence.svg", chart_to_svg(chart));
+  write_png(directory / "convergence.png", chart_to_picture(chart));
+}
+
+}  // namespace
+
+void check_new_directory(const fs::path& directory) {
+  std::error_code error;
+  const fs::file_status status = fs::status(directory, error);
+  if (status.type() == fs::file_type::not_found) return;
+  if (status.type() != fs::file_type::directory)
+    throw_input_error("{}: got {}, expected a directory to make", directory.string(),
+                      error ? error.message() : "a file");
+  if (fs::directory_iterator(directory, error) != fs::directory_iterator())
+    throw_input_error(
+        "{}: got a directory with files in it, expected a new one (--resume goes on with a run)",
+        directory.string());
+  if (error)
+    throw_input_error("{}: got '{}', expected a directory that can be read", directory.string(),
+                      error.message());
+}
+
+void check_run_directory(const fs::path& directory) {
+  std::error_code error;
+  if (!fs::is_directory(directory, error))
+    throw_input_error("{}: got no directory, expected that of a run", directory.string());
+  if (!fs::exists(directory / "run.toml", error))
+    throw_input_error("{}: got a directory without run.toml, expected that of a run", directory.string());
+}
+
+void begin_run_directory(const fs::path& directory, const RunState& state) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error)
+    throw_input_error("{}: got '{}', expected a directory that can be made", directory.string(),
+                      error.message());
+  write_file_atomically(directory / "run.toml", record_to_toml(state.record, std::nullopt));
+  for (std::size_t i = 0; i < state.task.views.size(); ++i)
+    write_mask_png(numbered(directory, "target", i), state.task.views[i].target.mask());
+}
+
+void write_run_directory(const fs::path& directory, RunState& state) {
+  write_best_pictures(directory, state);
+  write_file_atomically(directory / "best.toml", best_to_toml(state));
+  write_history(directory, state);
+  write_file_atomically(directory / "summary.json", run_summary(state));
+  write_file_atomically(directory / "run.toml", record_to_toml(state.record, outcome_of(state)));
+}
+
+std::string run_summary(const RunState& state) {
+  nlohmann::ordered_json summary;
+  summary["fitness"] = 1 - state.best.score;
+  summary["iou"] = state.best_metrics.iou;
+  summary["tolerant_iou"] = state.best_metrics.tolerant_iou;
+  summary["outline_iou"] = state.best_metrics.outline_iou;
+  summary["pixel_accuracy"] = state.best_metrics.pixel_accuracy;
+  summary["dice"] = state.best_metrics.dice;
+  summary["truncated_distance"] = state.best_metrics.truncated_distance;
+  summary["evaluations"] = state.evaluations;
+  summary["best_at_evaluation"] = state.best.evaluation;
+  summary["seconds"] = state.seconds;
+  summary["evaluations_per_second"] =
+      state.seconds > 0 ? static_cast<double>(state.evaluations) / state.seconds : 0;
+  summary["stopped_by"] = state.stopped_by.value_or("still running, or killed");
+  summary["optimizer"] = state.record.optimizer;
+  summary["objective"] = state.record.objective;
+  summary["model"] = state.record.model;
+  summary["seed"] = state.record.seed;
+  summary["fit_seeds"] = state.record.fit_seeds;
+  summary["size_px"] = state.record.target.size_px;
+  summary["embree_disagreement_pixels"] = state.embree_disagreement_px;
+  if (state.record.height_m) summary["height_m"] = *state.record.height_m;
+  for (const ViewRecord& view : state.record.views) summary["pictures"].push_back(view.picture.string());
+  for (const ScoredStart& start : state.starts)
+    summary["starts"].push_back({{"name", start.name}, {"fitness", start.fitness}});
+  return summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace espalier

@@ -1,0 +1,51 @@
+// The directory a run leaves: every file is replaced whole, so a run killed at any moment leaves a valid
+// one. run.toml and evaluations.bin repeat or resume it; plots read the other files only.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fitting/fit_record.h"
+#include "fitting/fit_task.h"
+#include "fitting/logged_scorer.h"
+#include "fitting/trace.h"
+
+namespace espalier {
+
+/// A start point and how it scored.
+struct ScoredStart {
+  std::string name;
+  double fitness = 0;
+};
+
+/// All that the files of a run are made from.
+struct RunState {
+  const FitRecord& record;
+  const FitTask& task;
+  std::vector<ScoredStart> starts = {};
+  BestCandidate best = {};
+  MaskMetrics best_metrics = {};
+  Trace trace = {};
+  long evaluations = 0;
+  double seconds = 0;
+  std::optional<std::string> stopped_by = {};  ///< none while it runs
+  std::size_t embree_disagreement_px = 0;
+};
+
+/// Throws InputError unless `directory` is missing or empty, and not a file.
+void check_new_directory(const std::filesystem::path& directory);
+
+/// Throws InputError unless it holds a run that can go on.
+void check_run_directory(const std::filesystem::path& directory);
+
+/// Makes the directory and writes run.toml and the target masks. Throws InputError where it cannot.
+void begin_run_directory(const std::filesystem::path& directory, const RunState& state);
+
+/// Draws the best candidate, counts where Embree disagrees, and replaces all files but the log.
+void write_run_directory(const std::filesystem::path& directory, RunState& state);
+
+/// summary.json.
+std::string run_summary(const RunState& state);
+
+}  // namespace espalier

@@ -1,0 +1,34 @@
+// Where a fit begins: presets, made as tall as the target and thinned to the growth budget.
+// This file knows the names of the Weber–Penn model's parameters; a model without them is left as it is.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/parameter_table.h"
+#include "core/random.h"
+#include "fitting/search_space.h"
+#include "plant/model.h"
+
+namespace espalier {
+
+struct StartPoint {
+  std::string name;  ///< "quaking_aspen", "quaking_aspen without leaves"
+  ParameterValues values;
+};
+
+/// Multiplies all values in metres by `factor` (clamped to what is valid): a similar plant.
+void scale_plant(const ParameterTable& table, double factor, ParameterValues& values);
+
+/// Scales leaves and branches of the deepest level down until the estimate fits the budget. A plant that
+/// does not get there in a few steps is left as thin as it got; its score says so.
+void thin_to_budget(const Model& model, const GrowthBudget& budget, ParameterValues& values);
+
+/// The start points of `start`: "auto" (each bundled preset of the model), "defaults" (those of the
+/// table), or names and paths of presets with commas between. Each preset also without its leaves, if it
+/// has any. Grown trees are `height_m` tall. Fixed values are set, counts may be relaxed, and the size does
+/// not vary from tree to tree. Throws InputError for presets that cannot be read or are of another model.
+std::vector<StartPoint> make_start_points(const Model& model, const std::string& start,
+                                          const SearchChoice& choice, const GrowthBudget& budget,
+                                          double height_m, Seed plant_seed);
+
+}  // namespace espalier
