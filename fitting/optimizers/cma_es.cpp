@@ -92,7 +92,7 @@ class CmaEs final : public SearchMethod {
   }
   std::vector<SettingInfo> settings() const override {
     return {
-        {"population", 0, 0, 65536, "candidates a generation; 0: 4 + floor(3 ln n), and never below 4", true},
+        {"population", 0, 0, 65536, "candidates a generation; 0: 4 + floor(3 ln n); 1 counts as 2", true},
         {"sigma0", 0.3, 1e-6, 1, "first standard deviation, as a share of the box"},
         {"growth", 2, 1, 16, "factor on the population at each restart, up to 65536"},
         {"tol_x", 1e-11, 1e-15, 0.1, "standard deviation below which a restart follows"},
@@ -105,7 +105,7 @@ class CmaEs final : public SearchMethod {
     const std::size_t given = run.count_setting("population");
     double lambda = static_cast<double>(given == 0 ? cma_population(run.evaluator.dimension()) : given);
     for (std::uint64_t restart = 0;; ++restart) {
-      run_strategy(run, static_cast<std::size_t>(std::clamp(lambda, 4.0, 65536.0)), restart);
+      run_strategy(run, static_cast<std::size_t>(std::clamp(lambda, 2.0, 65536.0)), restart);
       lambda = std::min(lambda * run.setting("growth"), 65536.0);
     }
   }

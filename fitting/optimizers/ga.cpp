@@ -89,7 +89,7 @@ class Ga final : public SearchMethod {
   }
   std::vector<SettingInfo> settings() const override {
     return {
-        {"population", 40, 2, 65536, "individuals", true},
+        {"population", 30, 2, 65536, "individuals", true},
         {"tournament", 3, 1, 1000, "individuals a parent has to beat, itself counted", true},
         {"crossover", 2, 0, 2, "0: SBX, 1: uniform, 2: either by a coin", true},
         {"crossover_chance", 0.9, 0, 1, "chance that a pair of parents is crossed"},

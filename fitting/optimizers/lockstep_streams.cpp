@@ -1,4 +1,6 @@
-// The exchange between the streams and the evaluating thread: one mutex, one condition to wake either side.
+// The exchange between the streams and the evaluating thread: one mutex, a condition for each side.
+// `running_` counts the streams that have neither asked nor finished; the one that brings it to 0 wakes the
+// evaluating thread.
 #include "fitting/optimizers/lockstep_streams.h"
 
 #include <algorithm>
@@ -12,7 +14,7 @@ namespace espalier {
 
 class LockstepExchange {
  public:
-  LockstepExchange(std::size_t count, std::size_t dimension) : slots_(count) {
+  LockstepExchange(std::size_t count, std::size_t dimension) : slots_(count), running_(count) {
     for (Slot& slot : slots_) slot.point.resize(dimension);
   }
 
@@ -21,9 +23,8 @@ class LockstepExchange {
     if (stopped_) return false;
     Slot& slot = slots_[stream];
     std::copy(point.begin(), point.end(), slot.point.begin());
-    slot.state = State::posted;
-    changed_.notify_all();
-    changed_.wait(lock, [&] { return stopped_ || slot.state == State::answered; });
+    settle(slot, State::posted);
+    answered_.wait(lock, [&] { return stopped_ || slot.state == State::answered; });
     if (slot.state != State::answered) return false;
     slot.state = State::running;
     value = slot.value;
@@ -32,24 +33,20 @@ class LockstepExchange {
 
   void finish(std::size_t stream, std::exception_ptr error) noexcept {
     const std::lock_guard lock(mutex_);
-    slots_[stream].state = State::finished;
     slots_[stream].error = error;
-    changed_.notify_all();
+    settle(slots_[stream], State::finished);
   }
 
   void stop() noexcept {
     const std::lock_guard lock(mutex_);
     stopped_ = true;
-    changed_.notify_all();
+    answered_.notify_all();
   }
 
   /// Waits until every live stream has posted; their points, in stream order. Empty when none lives.
   std::vector<double> collect() {
     std::unique_lock lock(mutex_);
-    const auto settled = [](const Slot& slot) {
-      return slot.state == State::posted || slot.state == State::finished;
-    };
-    changed_.wait(lock, [&] { return std::all_of(slots_.begin(), slots_.end(), settled); });
+    settled_.wait(lock, [&] { return running_ == 0; });
     std::vector<double> points;
     for (const Slot& slot : slots_) {
       if (slot.error) std::rethrow_exception(slot.error);
@@ -66,8 +63,9 @@ class LockstepExchange {
       if (slot.state != State::posted) continue;
       slot.value = values[next++];
       slot.state = State::answered;
+      ++running_;
     }
-    changed_.notify_all();
+    answered_.notify_all();
   }
 
  private:
@@ -79,9 +77,17 @@ class LockstepExchange {
     std::exception_ptr error;
   };
 
+  /// A running stream asks or ends; the mutex is held.
+  void settle(Slot& slot, State state) noexcept {
+    const bool was_running = slot.state == State::running || slot.state == State::answered;
+    slot.state = state;
+    if (was_running && --running_ == 0) settled_.notify_one();
+  }
+
   std::mutex mutex_;
-  std::condition_variable changed_;
+  std::condition_variable settled_, answered_;
   std::vector<Slot> slots_;
+  std::size_t running_;
   bool stopped_ = false;
 };
 
