@@ -6,9 +6,13 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <new>
+#include <stdexcept>
 
 #include "core/error.h"
+#include "image/claimed_size.h"
 #include "image/jpeg_end.h"
+#include "image/quiet_stderr.h"
 
 namespace espalier {
 
@@ -17,6 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 using OIIO::ImageInput;
 using OIIO::ImageSpec;
+
+constexpr double kMaxPixelsPerByte = 10'000;
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -41,15 +47,23 @@ std::unique_ptr<ImageInput> open_picture(const fs::path& path) {
   return input;
 }
 
-/// Before anything is allocated for the pixels.
+/// Before anything is allocated for the pixels. Deflate packs at most 8 · 1032 pixels of one bit into a byte.
+void check_size(const fs::path& path, int width_px, int height_px, int layers) {
+  const double pixels = static_cast<double>(width_px) * height_px * std::max(1, layers);
+  if (pixels > static_cast<double>(kMaxSourcePixels) || layers > 1)
+    throw_input_error("{}: claims {}×{}×{} pixels, expected at most {} in one layer", path.string(), width_px,
+                      height_px, layers, kMaxSourcePixels);
+  if (std::min(width_px, height_px) < kMinSourceSide)
+    throw_input_error("{}: has {}×{} pixels, expected at least {} on each side", path.string(), width_px,
+                      height_px, kMinSourceSide);
+  const auto bytes = fs::file_size(path);
+  if (pixels > kMaxPixelsPerByte * static_cast<double>(bytes))
+    throw_input_error("{}: claims {}×{} pixels in {} bytes: is cut off, or shows no tree", path.string(),
+                      width_px, height_px, bytes);
+}
+
 void check_size(const fs::path& path, const ImageSpec& spec) {
-  const double pixels = static_cast<double>(spec.width) * spec.height * std::max(1, spec.depth);
-  if (pixels > static_cast<double>(kMaxSourcePixels) || spec.depth > 1)
-    throw_input_error("{}: claims {}×{}×{} pixels, expected at most {} in one layer", path.string(),
-                      spec.width, spec.height, spec.depth, kMaxSourcePixels);
-  if (std::min(spec.width, spec.height) < kMinSourceSide)
-    throw_input_error("{}: has {}×{} pixels, expected at least {} on each side", path.string(), spec.width,
-                      spec.height, kMinSourceSide);
+  check_size(path, spec.width, spec.height, spec.depth);
   if (spec.nchannels < 1 || spec.nchannels > 64)
     throw_input_error("{}: has {} channels, expected 1 to 64", path.string(), spec.nchannels);
 }
@@ -121,7 +135,8 @@ DecodedPicture read_pixels(ImageInput& input, const fs::path& path) {
   std::vector<float> samples(static_cast<std::size_t>(chunk_rows) * spec.width * spec.nchannels);
   for (int begin = 0; begin < spec.height; begin += chunk_rows) {
     const int end = std::min(begin + chunk_rows, spec.height);
-    if (!read_rows(input, spec, begin, end, samples.data()))
+    const bool read = read_rows(input, spec, begin, end, samples.data());
+    if (!read || input.has_error())  // TIFF's reader returns true for rows that are not in the file
       throw_input_error("{}: is damaged or cut off ({})", path.string(), first_line(input.geterror()));
     const float* pixel = samples.data();
     for (int y = begin; y < end; ++y)
@@ -157,12 +172,18 @@ DecodedPicture turn_upright(DecodedPicture picture, int orientation) {
 
 }  // namespace
 
-DecodedPicture decode_picture(const fs::path& path) {
+DecodedPicture decode_picture(const fs::path& path) try {
+  const QuietStderr quiet;
   check_is_file(path);
+  if (const auto claimed = claimed_size(path)) check_size(path, claimed->width_px, claimed->height_px, 1);
   const auto input = open_picture(path);
   check_size(path, input->spec());
   const int orientation = input->spec().get_int_attribute("Orientation", 1);
   return turn_upright(read_pixels(*input, path), orientation);
+} catch (const std::bad_alloc&) {
+  throw_input_error("{}: needs more memory than there is", path.string());
+} catch (const std::length_error&) {  // sizes that a reader did not check
+  throw_input_error("{}: is damaged: it claims impossible sizes", path.string());
 }
 
 }  // namespace espalier

@@ -19,6 +19,8 @@ constexpr double kSmallestBackgroundShare = 1e-3;
 void check_shows_a_tree(const Mask& mask, const std::string& name, const std::string& how) {
   const double all = static_cast<double>(mask.width_px()) * mask.height_px();
   const double share = static_cast<double>(area_px(mask)) / all;
+  if (share == 0)
+    throw_input_error("{}: shows no tree: nothing stands out from the background ({})", name, how);
   if (share < kSmallestTreeShare)
     throw_input_error("{}: shows no tree: {} of {} pixels are set ({})", name, area_px(mask), all, how);
   if (share > 1 - kSmallestBackgroundShare)

@@ -209,6 +209,17 @@ float luminance_of(const Rgba& rgba) { return 0.2126f * rgba[0] + 0.7152f * rgba
 
 float alpha_of(const Rgba& rgba) { return rgba[3]; }
 
+/// Whether some channel of some two pixels differs visibly.
+bool has_contrast(const DecodedPicture& picture) {
+  Rgba least = picture.pixels.front(), most = least;
+  for (const Rgba& pixel : picture.pixels)
+    for (int c = 0; c < 3; ++c) {
+      least[c] = std::min(least[c], pixel[c]);
+      most[c] = std::max(most[c], pixel[c]);
+    }
+  return std::max({most[0] - least[0], most[1] - least[1], most[2] - least[2]}) >= kSmallestContrast;
+}
+
 /// Two tones, with at most soft edges between them: luminance then tells more exactly where the edge is.
 bool is_two_tone(const Split& split) { return split.near_a_mean > 0.85 && split.contrast() > 0.3f; }
 
@@ -244,15 +255,19 @@ Separation separate_tree(const DecodedPicture& picture, SeparationMethod method,
     const Channel channel = make_channel(picture, alpha_of);
     if (method == alpha || alpha_informs(channel)) return separate_by_alpha(channel, side);
   }
+  if (!has_contrast(picture)) {
+    const auto [red, green, blue, _] = picture.pixels.front();
+    throw_input_error("{}: shows no tree: all of it is of one colour ({:.2f}, {:.2f}, {:.2f})", name, red,
+                      green, blue);
+  }
   const Channel tones = make_channel(picture, luminance_of);
   const Split split = split_by_otsu(tones);
   const Background border = sample_background(picture);
   const bool one_background = border.share > 0.7;
-  if (method == background ||
-      (method == automatic && one_background && !is_two_tone(split)))
+  if (method == background || (method == automatic && one_background && !is_two_tone(split)))
     return separate_by_background(picture, border, side);
   if (split.contrast() < kSmallestContrast)
-    throw_input_error("{}: shows no tree, it is of one tone (luminance {:.3f})", name, tones.values[0]);
+    throw_input_error("{}: shows no tree: it is of one tone (luminance {:.3f})", name, tones.values[0]);
   return separate_by_luminance(tones, split, side);
 }
 
