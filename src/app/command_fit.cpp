@@ -1,0 +1,267 @@
+// espalier fit: fits a tree to pictures. Options become a record, the fit runs, its progress is shown.
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "app/commands.h"
+#include "app/version.h"
+#include "core/error.h"
+#include "fitting/fit.h"
+
+namespace espalier {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kDefaultPicture = "targets/fir.png";
+
+struct FitArguments {
+  FitRecord record;
+  std::string image, out, resume, repeat;
+  std::vector<std::string> views, free, fixed, settings;
+  std::string separation = "auto", tree_side = "auto";
+  double height_m = 0;
+  int threads = 0;
+  bool quiet = false;
+};
+
+// Ctrl-C: the first ends the search and writes the result, the second kills.
+volatile std::sig_atomic_t interrupted = 0;
+
+void on_interrupt(int signal) {
+  interrupted = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+/// One line that is written over on a terminal, a plain line every few seconds elsewhere.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+  void show(const FitProgress& progress) {
+    const double pause_s = terminal_ ? 0.2 : 5;
+    if (quiet_ || (shown_ && std::chrono::duration<double>(Clock::now() - shown_at_).count() < pause_s))
+      return;
+    shown_at_ = Clock::now();
+    shown_ = true;
+    const std::string left =
+        progress.seconds_left ? fmt::format(", {:.0f} s left", std::ceil(*progress.seconds_left)) : "";
+    fmt::print(stderr, "{}{} evaluations, {:.0f}/s, best fitness {:.4f}{}{}", terminal_ ? "\r\033[K" : "",
+               progress.evaluations,
+               static_cast<double>(progress.evaluations) / std::max(progress.seconds, 1e-9),
+               progress.best_fitness, left, terminal_ ? "" : "\n");
+    std::fflush(stderr);
+  }
+  void end() const {
+    if (shown_ && terminal_) fmt::print(stderr, "\r\033[K");
+  }
+
+ private:
+  bool quiet_, terminal_, shown_ = false;
+  Clock::time_point shown_at_;
+};
+
+/// The bundled picture, from the working directory or else from the sources.
+fs::path default_picture() {
+  std::error_code error;
+  return fs::exists(kDefaultPicture, error) ? fs::path(kDefaultPicture)
+                                            : fs::path(ESPALIER_DATA_DIR) / kDefaultPicture;
+}
+
+/// "name=value" with a number for a value.
+std::pair<std::string, double> parse_assignment(const std::string& text, const char* option) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw_input_error("{}: got '{}', expected name=value", option, text);
+  const std::string number = text.substr(equals + 1);
+  std::size_t used = 0;
+  double value = NAN;
+  try {
+    value = std::stod(number, &used);
+  } catch (const std::exception&) {  // no number, or out of range
+  }
+  if (used != number.size() || number.empty() || !std::isfinite(value))
+    throw_input_error("{}: {} got '{}', expected a finite number", option, text.substr(0, equals), number);
+  return {text.substr(0, equals), value};
+}
+
+std::vector<ViewRecord> views_of(const FitArguments& arguments) {
+  std::vector<ViewRecord> views;
+  if (!arguments.image.empty()) views.push_back({arguments.image, {}});
+  for (const std::string& text : arguments.views) views.push_back(parse_view(text));
+  if (views.empty()) views.push_back({default_picture(), {}});
+  std::error_code error;
+  for (ViewRecord& view : views) view.picture = fs::absolute(view.picture, error);
+  return views;
+}
+
+/// --seconds has a default; given alone, --evaluations or --target-fitness replace it.
+void set_budget(const CLI::App& command, FitBudget& budget) {
+  if (command.count("--evaluations") > 0) {
+    if (budget.evaluations < 1)
+      throw_input_error("--evaluations: got {}, expected a whole number from 1", budget.evaluations);
+    if (command.count("--seconds") == 0) budget.seconds = 0;
+  }
+  if (command.count("--seconds") > 0 && !(budget.seconds > 0))
+    throw_input_error("--seconds: got {}, expected a positive number", budget.seconds);
+  if (command.count("--target-fitness") > 0 && !(budget.target_fitness > 0))
+    throw_input_error("--target-fitness: got {}, expected a number above 0, at most 1",
+                      budget.target_fitness);
+}
+
+FitRecord new_record(const CLI::App& command, const FitArguments& arguments) {
+  FitRecord record = arguments.record;
+  record.views = views_of(arguments);
+  record.search.free = arguments.free;
+  for (const std::string& text : arguments.fixed) record.search.fixed.insert(parse_assignment(text, "--fix"));
+  for (const std::string& text : arguments.settings)
+    record.optimizer_settings.insert(parse_assignment(text, "--set-optimizer"));
+  record.target.method = parse_separation_method(arguments.separation);
+  record.target.side = parse_tree_side(arguments.tree_side);
+  if (command.count("--height") > 0) record.height_m = arguments.height_m;
+  set_budget(command, record.budget);
+  return record;
+}
+
+void add_versions(FitRecord& record) {
+  record.versions = {{"espalier", program_version()}, {"commit", build_commit()}};
+  for (const LibraryVersion& library : library_versions()) record.versions[library.name] = library.version;
+}
+
+/// The record in a run's directory, with the limits of this command line where it gives any.
+FitRecord resumed_record(const CLI::App& command, const FitArguments& arguments) {
+  check_run_directory(arguments.resume);
+  FitRecord record = read_record(fs::path(arguments.resume) / "run.toml").record;
+  FitBudget given = arguments.record.budget;
+  set_budget(command, given);
+  if (command.count("--evaluations") + command.count("--seconds") > 0)
+    record.budget.evaluations = given.evaluations, record.budget.seconds = given.seconds;
+  if (command.count("--target-fitness") > 0) record.budget.target_fitness = given.target_fitness;
+  return record;
+}
+
+/// The record of a run, to be repeated for as many evaluations as that run made.
+FitRecord repeated_record(const std::string& directory) {
+  check_run_directory(directory);
+  auto [record, outcome] = read_record(fs::path(directory) / "run.toml");
+  if (outcome) record.budget = {.evaluations = outcome->evaluations, .seconds = 0, .target_fitness = 0};
+  return record;
+}
+
+/// runs/fir-1, or runs/fir-1-2 where that is taken.
+fs::path unused_directory(const FitRecord& record) {
+  const std::string stem = fmt::format("{}-{}", record.views.front().picture.stem().string(), record.seed);
+  fs::path directory = fs::path("runs") / stem;
+  std::error_code error;
+  for (int i = 2; fs::exists(directory, error); ++i)
+    directory = fs::path("runs") / fmt::format("{}-{}", stem, i);
+  return directory;
+}
+
+void print_result(const FitResult& result, const FitRecord& record, const fs::path& directory) {
+  fmt::print("fitness {:.4f}, IoU {:.4f}, tolerant IoU {:.4f}, outline IoU {:.4f}\n", result.fitness,
+             result.metrics.iou, result.metrics.tolerant_iou, result.metrics.outline_iou);
+  fmt::print("{} evaluations in {:.1f} s with {} over {} parameters, stopped by {}; best start: {}\n",
+             result.evaluations, result.seconds, record.optimizer, result.dimension, result.stopped_by,
+             result.best_start);
+  fmt::print("files: {} (best.toml, best.png, overlay.png, convergence.png, summary.json)\n",
+             directory.string());
+}
+
+void run_fit(const CLI::App& command, const FitArguments& arguments) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error to report, not a death
+  ProgressLine line(arguments.quiet);
+  FitOptions options;
+  options.threads = arguments.threads;
+  options.resume = !arguments.resume.empty();
+  options.stop_requested = [] { return interrupted != 0; };
+  options.on_progress = [&line](const FitProgress& progress) { line.show(progress); };
+  FitRecord record = options.resume              ? resumed_record(command, arguments)
+                     : !arguments.repeat.empty() ? repeated_record(arguments.repeat)
+                                                 : new_record(command, arguments);
+  add_versions(record);
+  const fs::path directory = options.resume          ? fs::path(arguments.resume)
+                             : arguments.out.empty() ? unused_directory(record)
+                                                     : fs::path(arguments.out);
+  std::signal(SIGINT, on_interrupt);
+  const FitResult result = fit(record, directory, options);
+  line.end();
+  if (!arguments.quiet) print_result(result, record, directory);
+}
+
+void add_target_options(CLI::App& command, FitArguments& arguments) {
+  command.add_option("image", arguments.image, "picture of a tree (default: the bundled fir)");
+  command.add_option(
+      "--views", arguments.views,
+      "more pictures: FILE:AZIMUTH,ELEVATION[,FIELD_OF_VIEW], in degrees; 0,0 is the front view");
+  command.add_option("--size", arguments.record.target.size_px, "side of the masks, px")
+      ->capture_default_str();
+  command.add_option("--height", arguments.height_m, "height of the tree, m (default: a nominal 10)");
+  command.add_option("--separation", arguments.separation, "auto, alpha, luminance or background")
+      ->capture_default_str();
+  command.add_option("--tree-side", arguments.tree_side, "auto, light or dark")->capture_default_str();
+}
+
+void add_search_options(CLI::App& command, FitArguments& arguments) {
+  FitRecord& record = arguments.record;
+  command.add_option("--optimizer", record.optimizer, "method of the search")->capture_default_str();
+  command.add_option("--set-optimizer", arguments.settings, "a setting of the method: name=value");
+  command.add_option("--objective", record.objective, "weighted sum of measures to minimise")
+      ->capture_default_str();
+  command.add_option("--fit-seeds", record.fit_seeds, "trees grown per candidate, averaged")
+      ->capture_default_str();
+  command.add_option("--start", record.start, "auto (all presets), defaults, or presets: NAME,NAME")
+      ->capture_default_str();
+  command.add_option("--free", arguments.free, "parameters to search: a,b[1],curve*,default")->delimiter(',');
+  command.add_option("--fix", arguments.fixed, "hold a parameter: name=value");
+  command.add_option("--max-stems", record.growth.max_stems, "stems a candidate may have")
+      ->capture_default_str();
+  command.add_option("--max-leaves", record.growth.max_leaves, "leaves a candidate may have")
+      ->capture_default_str();
+  command.add_option("--seed", record.seed, "of the search, and of the first tree")->capture_default_str();
+}
+
+void add_run_options(CLI::App& command, FitArguments& arguments) {
+  FitBudget& budget = arguments.record.budget;
+  command.add_option("--seconds", budget.seconds, "time to search")->capture_default_str();
+  command.add_option("--evaluations", budget.evaluations, "stop after this many (alone: no limit of time)");
+  command.add_option("--target-fitness", budget.target_fitness, "stop once the best is this good, 0..1");
+  command.add_option("--out", arguments.out, "directory to make (default: runs/IMAGE-SEED)");
+  command.add_option("--threads", arguments.threads, "0: one per processor; changes the speed only")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.add_flag("--quiet", arguments.quiet, "print nothing but errors");
+  CLI::Option* resume =
+      command.add_option("--resume", arguments.resume, "go on with the run in this directory");
+  CLI::Option* repeat = command.add_option("--repeat", arguments.repeat, "repeat the run in this directory");
+  for (const char* other : {"image", "--views", "--out", "--seed", "--size", "--height", "--separation",
+                            "--tree-side", "--optimizer", "--set-optimizer", "--objective", "--fit-seeds",
+                            "--start", "--free", "--fix", "--max-stems", "--max-leaves"}) {
+    resume->excludes(command.get_option(other));
+    if (std::string(other) != "--out") repeat->excludes(command.get_option(other));
+  }
+  repeat->excludes(resume);
+}
+
+}  // namespace
+
+void add_fit_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("fit", "Fit a tree to a picture, or to pictures from several sides");
+  const auto arguments = std::make_shared<FitArguments>();
+  add_target_options(*command, *arguments);
+  add_search_options(*command, *arguments);
+  add_run_options(*command, *arguments);
+  command->callback([command, arguments] { run_fit(*command, *arguments); });
+}
+
+}  // namespace espalier

@@ -1,0 +1,193 @@
+// espalier fit as a user meets it: a directory, one clear line for bad input, and runs that survive
+// being killed at any moment.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "support/run_espalier.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const std::string kPalm = "'" ESPALIER_SOURCE_DIR "/targets/oc_palm.png'";
+const std::string kSmall =
+    kPalm + " --size 32 --start palm --max-stems 300 --max-leaves 3000 --threads 2 --quiet ";
+
+/// A small fit into `run` of this many evaluations.
+std::string small_fit(const fs::path& run, long evaluations, const std::string& more = "") {
+  return "fit " + kSmall + "--evaluations " + std::to_string(evaluations) + " --out '" + run.string() + "' " +
+         more;
+}
+
+std::string trace_without_seconds(const fs::path& run) {
+  std::istringstream csv(read_text_file(run / "trace.csv"));
+  std::string text;
+  for (std::string line; std::getline(csv, line);) {
+    const auto first = line.find(','), second = line.find(',', first + 1);
+    text += line.substr(0, first) + line.substr(second) + "\n";
+  }
+  return text;
+}
+
+/// Starts a command through the shell, sends `signal` after `delay_ms`, returns its wait status.
+int run_and_signal(const std::string& command, int delay_ms, int signal) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::string line = "exec '" ESPALIER_PROGRAM "' " + command + " >/dev/null 2>&1";
+    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+    _exit(127);
+  }
+  usleep(static_cast<useconds_t>(delay_ms) * 1000);
+  kill(child, signal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return status;
+}
+
+void expect_error(const std::string& arguments, const std::string& words) {
+  const ProgramRun run = run_espalier("fit " + arguments);
+  expect_one_clear_error(run);
+  EXPECT_THAT(run.err, HasSubstr(words)) << arguments;
+}
+
+TEST(FitCommand, FitsAndSaysWhereTheFilesAre) {
+  const fs::path run = fresh_folder("plain") / "run";
+  const ProgramRun done =
+      run_espalier("fit " + kPalm + " --size 32 --start palm --evaluations 30 --out " + run.string());
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr(run.string()));
+  EXPECT_THAT(done.out, HasSubstr("IoU"));
+  EXPECT_THAT(done.err, HasSubstr("evaluations"));
+  EXPECT_EQ(done.err.find('\r'), std::string::npos) << "plain lines where there is no terminal";
+}
+
+TEST(FitCommand, IsSilentWhenQuiet) {
+  const ProgramRun done = run_espalier(small_fit(fresh_folder("quiet") / "run", 20));
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_EQ(done.out + done.err, "");
+}
+
+TEST(FitCommand, AKilledRunIsValidAndResumesToTheUnbrokenRun) {
+  const fs::path folder = fresh_folder("kill");
+  ASSERT_EQ(run_espalier(small_fit(folder / "unbroken", 600)).exit_code, 0);
+  std::mt19937 random(std::random_device{}());
+  const fs::path broken = folder / "broken";
+  int kills = 0;
+  for (int attempt = 0; attempt < 6; ++attempt) {
+    const int delay_ms = 100 + static_cast<int>(random() % 900);
+    const bool resume = fs::exists(broken / "run.toml");
+    const std::string command =
+        resume ? "fit --quiet --resume '" + broken.string() + "'" : small_fit(broken, 600);
+    if (!resume) fs::remove_all(broken);
+    kills += WIFSIGNALED(run_and_signal(command, delay_ms, SIGKILL));
+    if (fs::exists(broken / "summary.json")) {
+      EXPECT_TRUE(nlohmann::json::accept(read_text_file(broken / "summary.json")));
+    }
+  }
+  EXPECT_GT(kills, 0) << "no run lived long enough to be killed";
+  if (!fs::exists(broken / "run.toml")) GTEST_SKIP() << "killed each time before it began";
+  ASSERT_EQ(run_espalier("fit --quiet --resume '" + broken.string() + "'").exit_code, 0);
+  EXPECT_EQ(read_text_file(broken / "best.toml"), read_text_file(folder / "unbroken" / "best.toml"));
+  EXPECT_EQ(trace_without_seconds(broken), trace_without_seconds(folder / "unbroken"));
+}
+
+TEST(FitCommand, CtrlCWritesTheResultAndTheRunRepeatsByItsCount) {
+  const fs::path folder = fresh_folder("interrupt"), run = folder / "run";
+  const std::string endless = "fit " + kSmall + "--seconds 1000 --out '" + run.string() + "'";
+  const int status = run_and_signal(endless, 2500, SIGINT);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  const auto summary = nlohmann::json::parse(read_text_file(run / "summary.json"));
+  EXPECT_EQ(summary["stopped_by"], "interrupted");
+  ASSERT_EQ(run_espalier(small_fit(folder / "by_count", summary["evaluations"])).exit_code, 0);
+  EXPECT_EQ(read_text_file(folder / "by_count" / "best.toml"), read_text_file(run / "best.toml"));
+  const std::string repeat =
+      "fit --quiet --repeat '" + run.string() + "' --out '" + (folder / "again").string() + "'";
+  ASSERT_EQ(run_espalier(repeat).exit_code, 0);
+  EXPECT_EQ(read_text_file(folder / "again" / "best.toml"), read_text_file(run / "best.toml"));
+}
+
+TEST(FitCommand, RefusesBadOptionsInOneLine) {
+  const std::string out = " --out " + (fresh_folder("bad") / "run").string();
+  expect_error(kPalm + out + " --optimizer cma", "cma_es");
+  expect_error(kPalm + out + " --evaluations 0", "--evaluations");
+  expect_error(kPalm + out + " --seconds 0", "--seconds");
+  expect_error(kPalm + out + " --seconds -3", "--seconds");
+  expect_error(kPalm + out + " --seconds nan", "--seconds");
+  expect_error(kPalm + out + " --seed x", "--seed");
+  expect_error(kPalm + out + " --free g_scal", "g_scale");
+  expect_error(kPalm + out + " --objective iuo", "iou");
+  expect_error(kPalm + out + " --start oak_of_nowhere", "oak_of_nowhere");
+  expect_error(kPalm + out + " --set-optimizer nope=1", "nope");
+  expect_error(kPalm + out + " --views nothing.png:90", "AZIMUTH");
+  expect_error(kPalm + out + " --fit-seeds 0", "--fit-seeds");
+  expect_error(kPalm + out + " --target-fitness 7", "--target-fitness");
+  for (const char* value : {"nan", "inf", "1e308", "-inf", "1e999", "", "twelve", "99999"})
+    expect_error(kPalm + out + " --fix g_scale=" + value, "g_scale");
+  EXPECT_FALSE(fs::exists(fs::path(out.substr(7)))) << "nothing is left behind";
+}
+
+TEST(FitCommand, AcceptsMinusZeroAsZero) {
+  const fs::path run = fresh_folder("zero") / "run";
+  EXPECT_EQ(run_espalier(small_fit(run, 5, "--fix flare=-0")).exit_code, 0);
+  EXPECT_THAT(read_text_file(run / "best.toml"), testing::Not(HasSubstr("-0.0\n")));
+}
+
+TEST(FitCommand, RefusesPicturesThatAreNone) {
+  const fs::path folder = fresh_folder("pictures");
+  std::ofstream(folder / "empty.png").flush();
+  std::ofstream(folder / "text.png") << "this is no picture";
+  const std::string out = " --out " + (folder / "run").string();
+  expect_error((folder / "missing.png").string() + out, "missing.png");
+  expect_error((folder / "empty.png").string() + out, "empty.png");
+  expect_error((folder / "text.png").string() + out, "text.png");
+  EXPECT_FALSE(fs::exists(folder / "run"));
+}
+
+TEST(FitCommand, RefusesDirectoriesItCannotMake) {
+  const fs::path folder = fresh_folder("directories");
+  std::ofstream(folder / "file") << "x";
+  expect_error(kPalm + " --out " + folder.string(), "with files in it");
+  expect_error(kPalm + " --out " + (folder / "file").string(), "got a file");
+  expect_error(kPalm + " --out /proc/espalier/run", "/proc/espalier");
+}
+
+TEST(FitCommand, ReportsADiskThatFillsUp) {
+  const fs::path run = fresh_folder("full") / "run";
+  // A limit on the size of files stands in for a full disk: 8 blocks hold the record, not the pictures' end.
+  const ProgramRun done = run_shell("ulimit -f 8; '" ESPALIER_PROGRAM "' " + small_fit(run, 2000));
+  expect_one_clear_error(done);
+}
+
+TEST(FitCommand, RefusesToResumeWhatIsNoRun) {
+  expect_error("--resume " + fresh_folder("no_run").string(), "run.toml");
+  expect_error("--resume /nowhere/at/all", "/nowhere");
+  expect_error("--repeat /nowhere/at/all", "/nowhere");
+}
+
+TEST(FitCommand, RefusesToResumeWithAnotherPicture) {
+  const fs::path folder = fresh_folder("changed");
+  const fs::path picture = folder / "tree.png";
+  fs::copy_file(ESPALIER_SOURCE_DIR "/targets/oc_palm.png", picture);
+  const std::string run = (folder / "run").string();
+  ASSERT_EQ(
+      run_espalier("fit " + picture.string() + " --size 32 --start palm --evaluations 5 --quiet --out " + run)
+          .exit_code,
+      0);
+  fs::copy_file(ESPALIER_SOURCE_DIR "/targets/oc_cypress.png", picture, fs::copy_options::overwrite_existing);
+  expect_error("--resume " + run, "another picture");
+}
+
+}  // namespace
+}  // namespace espalier
