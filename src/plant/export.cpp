@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -24,13 +25,11 @@ namespace fs = std::filesystem;
 
 struct MeshFormat {
   std::string_view extension, assimp_id;
-  bool y_up, vertex_colours;
+  bool y_up;
 };
 
-constexpr std::array<MeshFormat, 4> kFormats{{{".glb", "glb2", true, false},
-                                              {".obj", "obj", false, false},
-                                              {".ply", "plyb", false, true},
-                                              {".stl", "stlb", false, false}}};
+constexpr std::array<MeshFormat, 4> kFormats{
+    {{".glb", "glb2", true}, {".obj", "obj", false}, {".ply", "plyb", false}, {".stl", "stlb", false}}};
 
 struct Material {
   const char* name;
@@ -56,36 +55,58 @@ aiVector3D to_assimp(Vec3 v, bool y_up) {
   return y_up ? aiVector3D(v.x, v.z, -v.y) : aiVector3D(v.x, v.y, v.z);
 }
 
-void copy_vertices(const TriangleMesh& mesh, bool y_up, aiMesh& out) {
-  out.mNumVertices = static_cast<unsigned>(mesh.position_m.size());
+/// A run of triangles and the run of vertices that they and no others use.
+struct Piece {
+  std::size_t first_triangle = 0, triangle_end = 0;
+  std::uint32_t first_vertex = 0, vertex_end = 0;
+};
+
+/// Cuts a mesh between its tubes and leaves. Assimp's export needs hundreds of bytes a vertex for one mesh at
+/// a time, so pieces keep the memory for large trees down.
+std::vector<Piece> cut_into_pieces(const TriangleMesh& mesh) {
+  constexpr std::uint32_t kPieceVertices = 1u << 18;
+  std::vector<Piece> pieces;
+  Piece piece;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const auto [lowest, highest] = std::minmax_element(mesh.triangles[f].begin(), mesh.triangles[f].end());
+    if (*lowest >= piece.vertex_end && piece.vertex_end - piece.first_vertex >= kPieceVertices) {
+      pieces.push_back(piece);
+      piece = {f, f, piece.vertex_end, piece.vertex_end};
+    }
+    piece.triangle_end = f + 1;
+    piece.vertex_end = std::max(piece.vertex_end, *highest + 1);
+  }
+  if (piece.triangle_end > piece.first_triangle) pieces.push_back(piece);
+  return pieces;
+}
+
+void copy_vertices(const TriangleMesh& mesh, const Piece& piece, bool y_up, aiMesh& out) {
+  out.mNumVertices = piece.vertex_end - piece.first_vertex;
   out.mVertices = new aiVector3D[out.mNumVertices];
   out.mNormals = new aiVector3D[out.mNumVertices];
   out.mTextureCoords[0] = new aiVector3D[out.mNumVertices];
   out.mNumUVComponents[0] = 2;
   for (unsigned i = 0; i < out.mNumVertices; ++i) {
-    out.mVertices[i] = to_assimp(mesh.position_m[i], y_up);
-    out.mNormals[i] = to_assimp(mesh.normal[i], y_up);
-    out.mTextureCoords[0][i] = aiVector3D(mesh.texture[i].u, mesh.texture[i].v, 0);
+    const std::size_t from = piece.first_vertex + i;
+    out.mVertices[i] = to_assimp(mesh.position_m[from], y_up);
+    out.mNormals[i] = to_assimp(mesh.normal[from], y_up);
+    out.mTextureCoords[0][i] = aiVector3D(mesh.texture[from].u, mesh.texture[from].v, 0);
   }
 }
 
 /// Assimp declares its glTF to have FB_ngon_encoding: neighbours with the same first corner are parts of one
 /// polygon. Ours are triangles, so no two neighbours may start with the same one.
-void copy_faces(const TriangleMesh& mesh, aiMesh& out) {
-  out.mNumFaces = static_cast<unsigned>(mesh.triangles.size());
+void copy_faces(const TriangleMesh& mesh, const Piece& piece, aiMesh& out) {
+  out.mNumFaces = static_cast<unsigned>(piece.triangle_end - piece.first_triangle);
   out.mFaces = new aiFace[out.mNumFaces];
   out.mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
   for (unsigned f = 0; f < out.mNumFaces; ++f) {
-    const auto& t = mesh.triangles[f];
-    const bool turn = f > 0 && out.mFaces[f - 1].mIndices[0] == t[0];
+    std::array<std::uint32_t, 3> t = mesh.triangles[piece.first_triangle + f];
+    for (std::uint32_t& vertex : t) vertex -= piece.first_vertex;
+    if (f > 0 && out.mFaces[f - 1].mIndices[0] == t[0]) std::rotate(t.begin(), t.begin() + 1, t.end());
     out.mFaces[f].mNumIndices = 3;
-    out.mFaces[f].mIndices = turn ? new unsigned[3]{t[1], t[2], t[0]} : new unsigned[3]{t[0], t[1], t[2]};
+    out.mFaces[f].mIndices = new unsigned[3]{t[0], t[1], t[2]};
   }
-}
-
-void colour_vertices(aiColor3D colour, aiMesh& out) {
-  out.mColors[0] = new aiColor4D[out.mNumVertices];
-  std::fill_n(out.mColors[0], out.mNumVertices, aiColor4D(colour.r, colour.g, colour.b, 1));
 }
 
 std::unique_ptr<aiMaterial> to_assimp(const Material& material) {
@@ -103,38 +124,54 @@ std::unique_ptr<aiMaterial> to_assimp(const Material& material) {
   return out;
 }
 
-/// A scene with as many children of its root as there can be meshes. It owns what is put into it.
-std::unique_ptr<aiScene> empty_scene(unsigned capacity) {
-  auto scene = std::make_unique<aiScene>();
-  scene->mMeshes = new aiMesh* [capacity] {};
-  scene->mMaterials = new aiMaterial* [capacity] {};
-  scene->mRootNode = new aiNode("plant");
-  scene->mRootNode->mChildren = new aiNode* [capacity] {};
-  return scene;
-}
-
-void add_mesh(const TriangleMesh& mesh, const Material& material, const MeshFormat& format, aiScene& scene) {
-  if (mesh.triangles.empty()) return;
-  const unsigned index = scene.mNumMeshes;
-  aiMesh* out = scene.mMeshes[scene.mNumMeshes++] = new aiMesh;
+aiMesh* to_assimp(const TriangleMesh& mesh, const Piece& piece, const Material& material,
+                  const MeshFormat& format) {
+  auto out = std::make_unique<aiMesh>();
   out->mName = aiString(material.name);
-  out->mMaterialIndex = index;
-  copy_vertices(mesh, format.y_up, *out);
-  copy_faces(mesh, *out);
-  if (format.vertex_colours) colour_vertices(material.colour, *out);
-  scene.mMaterials[scene.mNumMaterials++] = to_assimp(material).release();
-  aiNode& root = *scene.mRootNode;
-  aiNode* node = root.mChildren[root.mNumChildren++] = new aiNode(material.name);
-  node->mParent = &root;
-  node->mNumMeshes = 1;
-  node->mMeshes = new unsigned[1]{index};
+  copy_vertices(mesh, piece, format.y_up, *out);
+  copy_faces(mesh, piece, *out);
+  return out.release();
 }
 
+struct Part {
+  const TriangleMesh* mesh;
+  const Material* material;
+  std::vector<Piece> pieces;
+};
+
+std::vector<Part> parts_of(const PlantMesh& mesh) {
+  std::vector<Part> parts{{&mesh.bark, &kBark, cut_into_pieces(mesh.bark)},
+                          {&mesh.leaves, &kLeaf, cut_into_pieces(mesh.leaves)},
+                          {&mesh.blossoms, &kBlossom, cut_into_pieces(mesh.blossoms)}};
+  std::erase_if(parts, [](const Part& part) { return part.pieces.empty(); });
+  return parts;
+}
+
+/// Adds one material and one node, with a mesh a piece.
+void add_part(const Part& part, const MeshFormat& format, aiScene& scene) {
+  aiNode& root = *scene.mRootNode;
+  aiNode* node = root.mChildren[root.mNumChildren++] = new aiNode(part.material->name);
+  node->mParent = &root;
+  node->mMeshes = new unsigned[part.pieces.size()];
+  for (const Piece& piece : part.pieces) {
+    aiMesh* mesh = scene.mMeshes[scene.mNumMeshes] = to_assimp(*part.mesh, piece, *part.material, format);
+    mesh->mMaterialIndex = scene.mNumMaterials;
+    node->mMeshes[node->mNumMeshes++] = scene.mNumMeshes++;
+  }
+  scene.mMaterials[scene.mNumMaterials++] = to_assimp(*part.material).release();
+}
+
+/// One child of the root a material. The scene owns what is in it.
 std::unique_ptr<aiScene> make_scene(const PlantMesh& mesh, const MeshFormat& format) {
-  std::unique_ptr<aiScene> scene = empty_scene(3);
-  add_mesh(mesh.bark, kBark, format, *scene);
-  add_mesh(mesh.leaves, kLeaf, format, *scene);
-  add_mesh(mesh.blossoms, kBlossom, format, *scene);
+  const std::vector<Part> parts = parts_of(mesh);
+  std::size_t piece_count = 0;
+  for (const Part& part : parts) piece_count += part.pieces.size();
+  auto scene = std::make_unique<aiScene>();
+  scene->mMeshes = new aiMesh* [piece_count] {};
+  scene->mMaterials = new aiMaterial* [parts.size()] {};
+  scene->mRootNode = new aiNode("plant");
+  scene->mRootNode->mChildren = new aiNode* [parts.size()] {};
+  for (const Part& part : parts) add_part(part, format, *scene);
   return scene;
 }
 

@@ -1,7 +1,8 @@
 // Meshes of plants as files, written by Assimp: glb (glTF 2.0), obj with its mtl, binary ply, binary stl.
 // Metres. glTF demands y up: there (x, y, z) is written as (x, z, -y); the others are z up, as plants are.
-// Materials "bark", "leaf" and "blossom" are separate in glb and obj; ply has their colours at its vertices;
-// stl has no materials. Leaves are double-sided in glb; the other formats cannot say so.
+// Materials "bark", "leaf" and "blossom" are separate in glb and obj; stl has none, and ply could only tell
+// them by vertex colours, which Assimp 5.2 writes wrongly (assimp issue 3827). Leaves are double-sided in
+// glb; the other formats cannot say so.
 #pragma once
 #include <filesystem>
 

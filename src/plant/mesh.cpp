@@ -13,9 +13,11 @@ namespace espalier {
 
 namespace {
 
+constexpr float kWholeLeavesFrom = 0.25f;  ///< level of detail
+
 /// An outline with all that its copies share; normals and texture coordinates are those at unit size.
 struct LeafTemplate {
-  const LeafOutline& outline;
+  LeafOutline outline;
   std::vector<Vec3> normals;
   std::vector<TextureCoordinate> texture;
 };
@@ -44,6 +46,20 @@ std::vector<TextureCoordinate> box_coordinates(const std::vector<Vec3>& vertices
 
 LeafTemplate make_template(const LeafOutline& outline) {
   return {outline, smooth_normals(outline), box_coordinates(outline.vertices)};
+}
+
+/// Two triangles between the stalk, the tip and the widest places; the outline itself where it is as simple.
+LeafOutline kite(const LeafOutline& outline) {
+  const auto& v = outline.vertices;
+  const auto [left, right] =
+      std::minmax_element(v.begin(), v.end(), [](Vec3 a, Vec3 b) { return a.x < b.x; });
+  const auto [foot, tip] = std::minmax_element(v.begin(), v.end(), [](Vec3 a, Vec3 b) { return a.y < b.y; });
+  if (v.size() <= 4) return outline;
+  return {{*foot, *right, *tip, *left}, {{0, 1, 2}, {0, 2, 3}}};
+}
+
+LeafOutline leaf_at_detail(int shape, float detail) {
+  return detail < kWholeLeavesFrom ? kite(leaf_outline(shape)) : leaf_outline(shape);
 }
 
 /// Scaled outlines need normals divided by the scale (the inverse transpose).
@@ -106,7 +122,7 @@ int tube_sides(float radius_m, float tolerance_m) {
 PlantMesh mesh_plant(const Plant& plant, const MeshOptions& options) {
   PlantMesh mesh;
   append_stems(plant, mesh_tolerance_m(largest_side_m(bounds(plant)), options.detail), mesh.bark);
-  append_leaves(plant, LeafKind::leaf, leaf_outline(plant.leaf_shape), mesh.leaves);
+  append_leaves(plant, LeafKind::leaf, leaf_at_detail(plant.leaf_shape, options.detail), mesh.leaves);
   append_leaves(plant, LeafKind::blossom, blossom_outline(plant.blossom_shape), mesh.blossoms);
   return mesh;
 }

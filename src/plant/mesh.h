@@ -1,7 +1,8 @@
 // Plants as triangles: stems as closed tubes, leaves and blossoms as their outlines, one mesh a material.
 // Metres, z up; triangles are counter-clockwise seen from outside (a leaf: from its upper side), normals
 // are unit vectors. Leaves and blossoms have one layer of triangles, meant to be drawn from both sides.
-// Level of detail is one length: how far the mesh may lie from the true surface.
+// Level of detail is a length, how far tubes may lie from the true surface; leaves below detail 0.25 are
+// kites.
 #pragma once
 #include <array>
 #include <cstddef>
