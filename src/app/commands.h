@@ -14,6 +14,7 @@ int run_program(int argc, const char* const* argv);
 
 void add_target_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
+void add_mesh_command(CLI::App& app);
 void add_species_command(CLI::App& app);
 void add_params_command(CLI::App& app);
 void add_completion_command(CLI::App& app);

@@ -30,6 +30,7 @@ int run_program(int argc, const char* const* argv) {
   // Commands, in the order of the help.
   add_target_command(app);
   add_compare_command(app);
+  add_mesh_command(app);
   add_species_command(app);
   add_params_command(app);
   add_completion_command(app);

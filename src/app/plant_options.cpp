@@ -1,0 +1,69 @@
+// Options of commands that grow one plant: preset, seed, changed parameters, pruning volume.
+#include "app/plant_options.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+
+#include "core/error.h"
+#include "environment/volume.h"
+#include "models/models.h"
+#include "models/preset.h"
+
+namespace espalier {
+
+namespace {
+
+double parse_value(std::string_view text, const std::string& assignment) {
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || stop != text.data() + text.size())
+    throw_input_error("--set {}: '{}' is not a number", assignment, text);
+  return value;
+}
+
+/// A number, or the name of one of the row's choices.
+double value_of(const ParameterInfo& row, std::string_view text, const std::string& assignment) {
+  for (std::size_t i = 0; i < row.choices.size(); ++i)
+    if (row.choices[i] == text) return row.first_choice + static_cast<double>(i);
+  return parse_value(text, assignment);
+}
+
+void assign(const std::string& assignment, const ParameterTable& table, ParameterValues& values) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos) throw_input_error("--set {}: expected name=value", assignment);
+  const std::size_t row = table.index_of(assignment.substr(0, equals));
+  const std::string_view text = std::string_view(assignment).substr(equals + 1);
+  values[row] = value_of(table.rows[row], text, assignment);
+  check_value(table.rows[row], values[row], "--set " + assignment);
+}
+
+}  // namespace
+
+void add_plant_options(CLI::App& command, PlantOptions& options) {
+  command.add_option("preset", options.preset, "a bundled preset (see: espalier species) or a TOML file")
+      ->required();
+  command.add_option("--seed", options.seed, "seed of the random numbers")->capture_default_str();
+  command.add_option("--set", options.assignments, "change a parameter: name=value (repeatable)")
+      ->allow_extra_args(false);
+  command.add_option("--prune-to", options.prune_to,
+                     "keep the plant inside box:cx,cy,cz,sx,sy,sz, ball:cx,cy,cz,r, cylinder:cx,cy,cz,r,h "
+                     "or mesh:FILE (metres)");
+}
+
+Plant grow_plant(const PlantOptions& options) {
+  Preset preset = load_preset(options.preset);
+  const Model& model = model_by_name(preset.model);
+  for (const std::string& assignment : options.assignments) assign(assignment, model.table(), preset.values);
+  const std::unique_ptr<Volume> volume = options.prune_to.empty() ? nullptr : parse_volume(options.prune_to);
+  GrowthSettings settings;
+  settings.prune_to = volume.get();
+  Plant plant;
+  const GrowthResult result = model.generate(preset.values, options.seed, settings, plant);
+  if (!result.grown)
+    throw_input_error("{}: would have {:.3g} times as many stems or leaves as allowed ({:g} and {:g})",
+                      options.preset, result.over_budget_factor, settings.budget.max_stems,
+                      settings.budget.max_leaves);
+  return plant;
+}
+
+}  // namespace espalier
