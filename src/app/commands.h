@@ -12,8 +12,11 @@ namespace espalier {
 /// input).
 int run_program(int argc, const char* const* argv);
 
+void add_fit_command(CLI::App& app);
 void add_target_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
+void add_mask_command(CLI::App& app);
+void add_render_command(CLI::App& app);
 void add_mesh_command(CLI::App& app);
 void add_species_command(CLI::App& app);
 void add_params_command(CLI::App& app);

@@ -28,8 +28,11 @@ int run_program(int argc, const char* const* argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text, "Print the version, the commit and the libraries");
   // Commands, in the order of the help.
+  add_fit_command(app);
   add_target_command(app);
   add_compare_command(app);
+  add_mask_command(app);
+  add_render_command(app);
   add_mesh_command(app);
   add_species_command(app);
   add_params_command(app);
