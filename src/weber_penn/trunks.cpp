@@ -8,7 +8,7 @@ namespace espalier {
 
 namespace {
 
-constexpr float kLeanAtRimDeg = 3;  ///< [CH] says outwards only; by eye from its Figure 3.10
+constexpr float kLeanAtRimDeg = 2;  ///< [CH] says outwards only; by eye from its Figure 3.10
 
 /// A uniform point of the unit disc.
 Vec3 disc_point(RandomKey key, int attempt) {
