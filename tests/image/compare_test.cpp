@@ -200,7 +200,7 @@ TEST(Compare, OutlineIouIgnoresHolesAndGapsBetweenLeaves) {
   EXPECT_EQ(outline_iou(solid, grid), 1.0);
 }
 
-RC_GTEST_PROP(Compare, OutlineHoldsTheMaskAndIsItsOwnOutline, ()) {
+RC_GTEST_PROP(Compare, OutlineHoldsTheMask, ()) {
   const Mask mask = draw_mask(150);
   const Mask outline = outline_of(mask);
   RC_ASSERT(test::is_subset(mask, outline));

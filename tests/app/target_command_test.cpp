@@ -1,0 +1,96 @@
+// `espalier target`: what it writes and says, and that bad input is one line, exit code 2, and no file.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "image/read_target.h"
+#include "support/picture_files.h"
+#include "support/run_espalier.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
+
+class TargetCommand : public testing::Test {
+ protected:
+  ~TargetCommand() override { fs::remove_all(folder_); }
+
+  fs::path folder_ = fresh_folder("target_command");
+  const std::string fir_ = quoted(ESPALIER_SOURCE_DIR "/targets/fir.png");
+};
+
+TEST_F(TargetCommand, WritesTheMaskThatAFitSeesAndSaysHow) {
+  const ProgramRun run = run_espalier("target " + fir_ + " -o " + quoted(folder_ / "mask.png"));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(run.out, HasSubstr("alpha above 0.5"));
+  EXPECT_THAT(run.out, HasSubstr("256×256 px, the tree is 235.5 px tall"));
+  EXPECT_EQ(read_mask(folder_ / "mask.png").mask, read_target(ESPALIER_SOURCE_DIR "/targets/fir.png").mask);
+}
+
+TEST_F(TargetCommand, TakesSizeMethodAndSide) {
+  test::write_samples(folder_ / "a.png", test::draw_tree(100, {.2f, .5f, .2f}, {.9f, .9f, .9f}));
+  const ProgramRun run =
+      run_espalier("target " + quoted(folder_ / "a.png") + " -o " + quoted(folder_ / "mask.png") +
+                   " --size 64 --method luminance --side dark --speck 0 --fill-pinholes");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("luminance below"));
+  EXPECT_THAT(run.out, HasSubstr("pinholes"));
+  EXPECT_EQ(read_mask(folder_ / "mask.png").mask.width_px(), 64);
+}
+
+class TargetCommandBadPicture : public testing::TestWithParam<test::BadPicture> {};
+
+TEST_P(TargetCommandBadPicture, IsOneLineAndNoFile) {
+  const fs::path folder = fresh_folder("target_bad");
+  GetParam().write(folder / GetParam().file);
+  const ProgramRun run =
+      run_espalier("target " + quoted(folder / GetParam().file) + " -o " + quoted(folder / "mask.png"));
+  expect_one_clear_error(run);
+  EXPECT_THAT(run.err, HasSubstr(GetParam().message));
+  EXPECT_FALSE(fs::exists(folder / "mask.png"));
+  fs::remove_all(folder);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pictures, TargetCommandBadPicture, testing::ValuesIn(test::bad_pictures()),
+                         [](const auto& info) {
+                           std::string name = info.param.file;
+                           std::replace(name.begin(), name.end(), '.', '_');
+                           return name;
+                         });
+
+class TargetCommandBadArguments : public testing::TestWithParam<const char*> {};
+
+TEST_P(TargetCommandBadArguments, AreOneLineAndNoFile) {
+  const fs::path folder = fresh_folder("target_arguments");
+  const ProgramRun run =
+      run_shell("cd " + quoted(folder) +
+                " && '" ESPALIER_PROGRAM "' target '" ESPALIER_SOURCE_DIR "/targets/fir.png' " + GetParam());
+  expect_one_clear_error(run);
+  EXPECT_TRUE(fs::is_empty(folder));
+  fs::remove_all(folder);
+}
+
+INSTANTIATE_TEST_SUITE_P(Arguments, TargetCommandBadArguments,
+                         testing::Values("", "-o mask.png --size 0", "-o mask.png --size 5000",
+                                         "-o mask.png --size nan", "-o mask.png --size 1e308",
+                                         "-o mask.png --method magic", "-o mask.png --side left",
+                                         "-o mask.png --speck -1", "-o missing/mask.png", "-o .",
+                                         "-o /dev/full", "-o /proc/mask.png", "-o mask.png --unknown"));
+
+TEST_F(TargetCommand, ADiskThatFillsUpLeavesTheOldFile) {
+  test::write_bytes(folder_ / "mask.png", "old");
+  const ProgramRun run = run_shell("trap '' XFSZ; ulimit -f 0; '" ESPALIER_PROGRAM "' target " + fir_ +
+                                   " -o " + quoted(folder_ / "mask.png") + " 2>&1 | cat >&2; exit 2");
+  EXPECT_THAT(run.err, HasSubstr("cannot be written"));
+  EXPECT_EQ(read_text_file(folder_ / "mask.png"), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+}
+
+}  // namespace
+}  // namespace espalier

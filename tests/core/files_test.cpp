@@ -1,0 +1,112 @@
+#include "core/files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <filesystem>
+#include <thread>
+#include <vector>
+
+#include "core/error.h"
+#include "support/run_espalier.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Files : public testing::Test {
+ protected:
+  ~Files() override { fs::remove_all(folder_); }
+
+  void expect_refused(const fs::path& path, const std::string& bytes = "new") {
+    try {
+      write_file_atomically(path, bytes);
+      ADD_FAILURE() << path << " was written";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(path.string()));
+      EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
+    }
+  }
+  long entries() const { return std::distance(fs::directory_iterator(folder_), {}); }
+
+  fs::path folder_ = fresh_folder("files");
+};
+
+TEST_F(Files, BytesReadBackAsTheyWere) {
+  std::string bytes(100'000, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 31);
+  write_file_atomically(folder_ / "a", bytes);
+  EXPECT_EQ(read_file(folder_ / "a"), bytes);
+  write_file_atomically(folder_ / "a", "");
+  EXPECT_EQ(read_file(folder_ / "a"), "");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(Files, UnwritablePathsAreRefusedAndLeaveNothing) {
+  write_file_atomically(folder_ / "file", "old");
+  fs::create_directory(folder_ / "folder");
+  expect_refused(folder_ / "missing" / "a");
+  expect_refused(folder_ / "file" / "a");
+  expect_refused(folder_ / "folder");
+  expect_refused("/proc/espalier");
+  EXPECT_EQ(read_file(folder_ / "file"), "old");
+  EXPECT_EQ(entries(), 2);
+}
+
+TEST_F(Files, AFullDiskLeavesTheOldFile) {
+  write_file_atomically(folder_ / "a", "old");
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limited = before;
+  limited.rlim_cur = 1000;  // writes fail after 1000 bytes, as on a disk that fills up
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limited), 0);
+  expect_refused(folder_ / "a", std::string(100'000, 'x'));
+  expect_refused(folder_ / "b", std::string(100'000, 'x'));
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(read_file(folder_ / "a"), "old");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(Files, ADeviceIsWrittenAndNotReplaced) {
+  write_file_atomically("/dev/null", "bytes");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  expect_refused("/dev/full");
+}
+
+TEST_F(Files, ALinkStaysAndItsFileIsReplaced) {
+  write_file_atomically(folder_ / "file", "old");
+  fs::create_symlink("file", folder_ / "link");
+  write_file_atomically(folder_ / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(read_file(folder_ / "file"), "new");
+}
+
+TEST_F(Files, ReadersSeeTheOldOrTheNewFileWhileThreadsWrite) {
+  const std::string contents[] = {std::string(50'000, 'a'), std::string(70'000, 'b')};
+  write_file_atomically(folder_ / "a", contents[0]);
+  std::vector<std::thread> writers;
+  for (int writer = 0; writer < 2; ++writer)
+    writers.emplace_back([&, writer] {
+      for (int i = 0; i < 50; ++i) write_file_atomically(folder_ / "a", contents[writer]);
+    });
+  for (int i = 0; i < 50; ++i) {
+    const std::string seen = read_file(folder_ / "a");
+    EXPECT_TRUE(seen == contents[0] || seen == contents[1]) << seen.size();
+  }
+  for (std::thread& writer : writers) writer.join();
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(Files, WhatCannotBeReadIsRefused) {
+  EXPECT_THROW(read_file(folder_ / "missing"), InputError);
+  EXPECT_THROW(read_file(folder_), InputError);
+}
+
+}  // namespace
+}  // namespace espalier
