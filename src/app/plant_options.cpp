@@ -37,12 +37,19 @@ void assign(const std::string& assignment, const ParameterTable& table, Paramete
   check_value(table.rows[row], values[row], "--set " + assignment);
 }
 
+/// CLI11 would read -1 as the largest number there is.
+std::string reject_negative(const std::string& text) {
+  return text.starts_with('-') ? "got " + text + ", expected a whole number from 0" : "";
+}
+
 }  // namespace
 
 void add_plant_options(CLI::App& command, PlantOptions& options) {
   command.add_option("preset", options.preset, "a bundled preset (see: espalier species) or a TOML file")
       ->required();
-  command.add_option("--seed", options.seed, "seed of the random numbers")->capture_default_str();
+  command.add_option("--seed", options.seed, "seed of the random numbers")
+      ->check(reject_negative)
+      ->capture_default_str();
   command.add_option("--set", options.assignments, "change a parameter: name=value (repeatable)")
       ->allow_extra_args(false);
   command.add_option("--prune-to", options.prune_to,

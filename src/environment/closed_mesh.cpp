@@ -11,6 +11,7 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <string>
+#include <system_error>
 #include <tuple>
 
 #include "core/error.h"
@@ -41,8 +42,9 @@ const MeshFormat& format_of(const fs::path& path) {
 }
 
 const aiScene& import_scene(Assimp::Importer& importer, const fs::path& path) {
-  if (!fs::exists(path)) throw_input_error("mesh '{}': no such file", path.string());
-  if (!fs::is_regular_file(path)) throw_input_error("mesh '{}': not a file", path.string());
+  std::error_code none;
+  if (!fs::exists(path, none)) throw_input_error("mesh '{}': no such file", path.string());
+  if (!fs::is_regular_file(path, none)) throw_input_error("mesh '{}': not a file", path.string());
   const aiScene* scene =
       importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (!scene)

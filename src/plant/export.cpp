@@ -4,14 +4,18 @@
 
 #include <assimp/material.h>
 #include <assimp/scene.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <assimp/Exporter.hpp>
 #include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "core/error.h"
@@ -184,9 +188,14 @@ std::string_view bytes_of(const aiExportDataBlob& blob) {
 void check_mesh_path(const fs::path& path) {
   format_of(path);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder))
+  std::error_code none;
+  if (!fs::is_directory(folder, none))
     throw_input_error("mesh '{}': no folder '{}'", path.string(), folder.string());
-  if (fs::is_directory(path)) throw_input_error("mesh '{}': is a folder, expected a file", path.string());
+  if (fs::is_directory(path, none))
+    throw_input_error("mesh '{}': is a folder, expected a file", path.string());
+  if (access(folder.c_str(), W_OK) != 0)
+    throw_input_error("mesh '{}': folder '{}' cannot be written: {}", path.string(), folder.string(),
+                      std::strerror(errno));
 }
 
 void write_mesh(const PlantMesh& mesh, const fs::path& path) {

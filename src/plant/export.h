@@ -10,7 +10,8 @@
 
 namespace espalier {
 
-/// Throws InputError unless the extension is .glb, .obj, .ply or .stl and the folder of `path` exists.
+/// Throws InputError unless the extension is .glb, .obj, .ply or .stl and the folder of `path` exists and can
+/// be written: to be called before anything costly is done.
 void check_mesh_path(const std::filesystem::path& path);
 
 /// Writes the mesh, each file whole or not at all. An obj's mtl has the same name beside it.
