@@ -5,7 +5,8 @@
 //  - MLSL ignores its own tolerances (its local method's count), and its bookkeeping grows with the square
 //    of a run's length: its runs are cut and started anew;
 //  - ORIG_DIRECT allocates for its largest number of evaluations, so that one is fixed;
-//  - NEWUOA_BOUND needs 2 dimensions or more, AGS takes 10 or fewer.
+//  - all three NOSCAL variants of DIRECT are the same deterministic search;
+//  - NEWUOA_BOUND's own work takes milliseconds a step, and it needs 2 dimensions; AGS takes 10 at most.
 #pragma once
 #include <nlopt.h>
 

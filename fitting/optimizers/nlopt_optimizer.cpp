@@ -169,8 +169,7 @@ class NloptOptimizer final : public SearchMethod {
     const auto add = [&](const std::vector<SettingInfo>& some) {
       all.insert(all.end(), some.begin(), some.end());
     };
-    // A population needs its evaluations: on 2,000 of the sphere, 4 streams of CRS2 reach 0.06, 2 reach
-    // 0.009.
+    // A population needs its evaluations: see docs/optimizers.md for CRS2 with 1, 2 and 4 streams.
     const double streams = row_.kind == NloptKind::stochastic ? 2 : 4;
     if (uses_seed())
       add({{"streams", streams, 1, 256, "independent searches, evaluated side by side", true}});

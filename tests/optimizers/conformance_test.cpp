@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <thread>
 
 #include "core/error.h"
@@ -248,11 +249,23 @@ TEST_P(EveryOptimizer, RejectsAnObjectiveWithoutDimensions) {
   EXPECT_THROW(run(Flat(0), 10, silent), InputError);
 }
 
-TEST(NloptAlgorithms, RandNoscalIsLNoscal) {
-  Trace rand_noscal, noscal;
-  optimizer_by_name("GN_DIRECT_L_RAND_NOSCAL").minimize(Sphere(10), {}, Budget{2000}, {}, 1, rand_noscal);
-  optimizer_by_name("GN_DIRECT_L_NOSCAL").minimize(Sphere(10), {}, Budget{2000}, {}, 1, noscal);
-  EXPECT_EQ(rand_noscal.points, noscal.points);
+TEST(NloptAlgorithms, NoscalVariantsAreTheSameSearch) {
+  Trace expected;
+  optimizer_by_name("GN_DIRECT_L_NOSCAL").minimize(Sphere(10), {}, Budget{2000}, {}, 1, expected);
+  for (const char* name : {"GN_DIRECT_NOSCAL", "GN_DIRECT_L_RAND_NOSCAL"}) {
+    Trace trace;
+    optimizer_by_name(name).minimize(Sphere(10), {}, Budget{2000}, {}, 1, trace);
+    EXPECT_EQ(trace.points, expected.points) << name;
+  }
+}
+
+TEST(NloptAlgorithms, OrigDirectConvergesWhereItsRectanglesAreTooSmallToDivide) {
+  const Sphere sphere(1);
+  Observer silent;
+  const auto result = optimizer_by_name("GN_ORIG_DIRECT").minimize(sphere, {}, Budget{200000}, {}, 1, silent);
+  EXPECT_EQ(result.stopped_by, StopReason::converged);
+  EXPECT_LT(result.evaluations, 200000);
+  EXPECT_EQ(result.evaluations, sphere.count());
 }
 
 std::vector<std::string> all_names() {
@@ -279,6 +292,16 @@ TEST(OptimizerByName, NamesTheClosestWhereThereIsNone) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("LN_SBPLX"), std::string::npos) << error.what();
+  }
+}
+
+TEST(OptimizerDocs, NameEveryOptimizerAndSetting) {
+  std::ifstream file(ESPALIER_SOURCE_DIR "/docs/optimizers.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  for (const auto& optimizer : all_optimizers()) {
+    EXPECT_NE(text.find("| `" + optimizer->name() + "`"), std::string::npos) << optimizer->name();
+    for (const SettingInfo& info : optimizer->settings())
+      EXPECT_NE(text.find("`" + info.name + "`"), std::string::npos) << info.name;
   }
 }
 
