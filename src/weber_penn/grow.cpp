@@ -116,12 +116,14 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
   child.parent_length_m = parent.length_m;
   child.parent_child_max = parent.child_max;
   child.length_m = site.grown_fraction * child_length_m(parent, site);
-  if (child.length_m < kShortestStem_m || !prune(child)) return;
+  if (child.length_m < kShortestStem_m) return;
+  // [CH §3.2.1]: starts as close as is safe to the parent's surface; before pruning, which tests where it is.
+  const float unpruned_radius_m = child_radius_m(parent, site, child.length_m);
+  child.turtle.position_m += site.outward * (site.parent_radius_m - unpruned_radius_m);
+  if (!prune(child)) return;
   child.radius_m = child_radius_m(parent, site, child.length_m);
   const int next = level_index(level + 1);
   child.child_max = p_.length[next] + draw_signed(child.key, Draw::child_length) * p_.length_v[next];
-  // [CH §3.2.1]: starts as close as is safe to the parent's surface.
-  child.turtle.position_m += site.outward * (site.parent_radius_m - child.radius_m);
   next_level_.push_back(child);
 }
 

@@ -265,8 +265,9 @@ TEST(Growth, RelaxedCountsGrowTheLastChildInProportion) {
     for (std::size_t stem = 0; stem < plant.stems.size(); ++stem)
       if (plant.stems.level[stem] == 1)
         total_m += length(tip(plant, stem) - plant.knots.point_m[plant.stems.first_knot[stem]]);
-    if (last > 0)
+    if (last > 0) {
       EXPECT_LT(std::fabs(total_m - last), 0.06 * last) << "at " << branches;  // whole counts jump by a tenth
+    }
     last = total_m;
   }
 }
@@ -304,8 +305,9 @@ TEST(Pruning, NoStemLeavesTheVolumeAboveTheBase) {
   ASSERT_GT(stems_of_level(plant, 1), 5u);
   for (std::size_t stem = 0; stem < plant.stems.size(); ++stem)
     for (auto knot = plant.stems.first_knot[stem] + 1; knot < plant.stems.first_knot[stem + 1]; ++knot)
-      if (plant.stems.level[stem] > 0)
+      if (plant.stems.level[stem] > 0) {
         ASSERT_TRUE(ball.contains(plant.knots.point_m[knot])) << "stem " << stem;
+      }
 }
 
 TEST(Pruning, PruneRatioLiesBetweenUnprunedAndFullyPruned) {
