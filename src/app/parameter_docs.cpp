@@ -96,10 +96,10 @@ nlohmann::ordered_json row_as_json(const ParameterInfo& row) {
 
 std::string parameters_as_text(const ParameterTable& table) {
   std::string text =
-      fmt::format("{:<20} {:<4} {:<16} {:<16} {}\n", "parameter", "unit", "valid", "default", "");
+      fmt::format("{:<20} {:<4} {:<16} {:<24} {}\n", "parameter", "unit", "valid", "default", "meaning");
   for (const RowGroup& group : group_rows(table)) {
     const ParameterInfo& row = *group.front();
-    text += fmt::format("{:<20} {:<4} {:<16} {:<16} {}\n", group_name(group), unit_of(row),
+    text += fmt::format("{:<20} {:<4} {:<16} {:<24} {}\n", group_name(group), unit_of(row),
                         fmt::format("{} .. {}", row.lower, row.upper), defaults_of(group), help_of(row));
   }
   return text;

@@ -44,12 +44,12 @@ std::vector<std::string> split(const std::string& line) {
   return cells;
 }
 
-/// A value that the row accepts: its ends, whole numbers, and the bits between.
+/// A value that the row accepts, with all 53 bits of a double where it need not be whole.
 rc::Gen<double> valid_value(const ParameterInfo& row) {
   const bool whole = row.scale == Scale::choice || (row.scale == Scale::integer && !row.relaxable);
-  return rc::gen::map(rc::gen::inRange(0, 1'000'001), [row, whole](int draw) {
-    const double value = row.lower + (row.upper - row.lower) * draw / 1e6;
-    return std::clamp(whole ? std::round(value) : value, row.lower, row.upper) + 0.0;
+  return rc::gen::map(rc::gen::inRange<std::uint64_t>(0, std::uint64_t{1} << 53), [row, whole](auto draw) {
+    const double value = row.lower + (row.upper - row.lower) * static_cast<double>(draw) * 0x1p-53;
+    return (whole ? std::round(value) : value) + 0.0;
   });
 }
 
@@ -90,7 +90,7 @@ TEST(Preset, BundledOnesAreTheFilesInTheSources) {
 TEST(Preset, WritingAndReadingKeepsEveryBit) {
   const PresetFolder folder;
   const ParameterTable& table = model_by_name("weber_penn").table();
-  rc::check([&] {
+  EXPECT_TRUE(rc::check([&] {
     Preset preset{"a \"name\"", "tab\t, back\\slash, line\nfeed, ü", "weber_penn", {}};
     for (const ParameterInfo& row : table.rows) preset.values.push_back(*valid_value(row));
     const Preset again = load_preset(folder.write("random.toml", preset_to_toml(preset)));
@@ -99,7 +99,7 @@ TEST(Preset, WritingAndReadingKeepsEveryBit) {
     for (std::size_t i = 0; i < preset.values.size(); ++i)
       RC_ASSERT(std::bit_cast<std::uint64_t>(again.values[i]) ==
                 std::bit_cast<std::uint64_t>(preset.values[i]));
-  });
+  }));
 }
 
 TEST(Preset, WhatItDoesNotNameIsTheModelsDefault) {
