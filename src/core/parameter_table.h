@@ -25,8 +25,8 @@ struct ParameterInfo {
   Scale scale = Scale::linear;
   SignMeaning sign = SignMeaning::number;
   double default_value = 0;
-  bool free_by_default = false;      ///< part of the default search space
-  bool relaxable = false;            ///< an integer that may be fractional: the last child grows in proportion
+  bool free_by_default = false;  ///< part of the default search space
+  bool relaxable = false;        ///< an integer that may be fractional: the last child grows in proportion
   std::vector<std::string> choices;  ///< names of choices; the value of choice i is first_choice + i
   int first_choice = 0;
   std::string symbol;  ///< the paper's name, where it has another one
