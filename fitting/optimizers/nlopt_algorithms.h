@@ -4,7 +4,8 @@
 //  - DIRECT, CRS2, ISRES, ESCH, AGS and MLSL never stop by themselves; ORIG_DIRECT may;
 //  - MLSL ignores its own tolerances (its local method's count), and its bookkeeping grows with the square
 //    of a run's length: its runs are cut and started anew;
-//  - ORIG_DIRECT allocates for its largest number of evaluations, so that one is fixed;
+//  - ORIG_DIRECT allocates for its largest number of evaluations, so that one is fixed.
+//    Stopped within its first 2n + 1 points it reads memory that it never set, and may crash;
 //  - all three NOSCAL variants of DIRECT are the same deterministic search;
 //  - NEWUOA_BOUND's own work takes milliseconds a step, and it needs 2 dimensions; AGS takes 10 at most.
 #pragma once
@@ -36,6 +37,7 @@ struct NloptAlgorithm {
   bool has_population = false;  ///< nlopt_set_population matters
   int run_limit = kNoRunLimit;  ///< evaluations after which one run of it ends
   std::size_t min_dimension = 1, max_dimension = kNoDimensionLimit;
+  bool stops_in_first_points = true;  ///< false: may be stopped only after its first 2n + 1 points
 };
 
 /// All rows, in the order of the help.

@@ -29,6 +29,8 @@ struct NloptCall {
   std::vector<bool> mirrored;  ///< coordinates that NLopt sees as 1 - x
   std::vector<double> point;
   RatedPoint best;
+  long stoppable_after;  ///< callbacks before which NLopt must not be asked to stop
+  long callbacks = 0;
   long asked = 0;
   bool stopped = false;
 };
@@ -41,19 +43,24 @@ void read_point(NloptCall& call, const double* x) {
   }
 }
 
+/// Once the run has ended: asks NLopt to stop, as soon as that is safe.
+double refuse(NloptCall& call) noexcept {
+  call.stopped = true;
+  if (call.callbacks > call.stoppable_after) nlopt_force_stop(call.opt);
+  return kWorstValue;
+}
+
 double nlopt_callback(unsigned, const double* x, double*, void* data) noexcept {
   NloptCall& call = *static_cast<NloptCall*>(data);
-  if (call.stopped) return kWorstValue;
+  ++call.callbacks;
+  if (call.stopped) return refuse(call);
   read_point(call, x);
   double value = kWorstValue;
   const bool is_known = call.known && call.asked == 0 && call.point == call.known->point;
-  if (is_known) {
+  if (is_known)
     value = call.known->value;
-  } else if (!call.port.ask(call.point, value)) {
-    call.stopped = true;
-    nlopt_force_stop(call.opt);
-    return kWorstValue;
-  }
+  else if (!call.port.ask(call.point, value))
+    return refuse(call);
   ++call.asked;
   if (call.asked == 1 || value < call.best.value) call.best = {call.point, value};
   return value;
@@ -105,9 +112,13 @@ std::optional<RatedPoint> run_once(const NloptAlgorithm& row, const Search& run,
                                    bool start_is_known, Draws& draws, StreamPort& port) {
   const NloptHandle opt = configure(row, run);
   const std::size_t dimension = start.point.size();
-  NloptCall call{
-      port,        opt.get(),    start_is_known ? &start : nullptr, mirrored_axes(row, dimension, draws),
-      start.point, {start.point}};
+  NloptCall call{port,
+                 opt.get(),
+                 start_is_known ? &start : nullptr,
+                 mirrored_axes(row, dimension, draws),
+                 start.point,
+                 {start.point},
+                 row.stops_in_first_points ? 0 : 2 * static_cast<long>(dimension) + 1};
   check_nlopt(row, nlopt_set_min_objective(opt.get(), nlopt_callback, &call));
   std::vector<double> x = start.point;
   for (std::size_t i = 0; i < dimension; ++i)
