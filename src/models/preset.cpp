@@ -19,7 +19,7 @@ std::optional<std::string> read_text(const toml::table& document, const std::str
                                      std::string_view key) {
   const toml::node* node = document.get(key);
   if (!node) return std::nullopt;
-  if (const auto text = node->value_exact<std::string>()) return text;
+  if (auto text = node->value_exact<std::string>()) return text;
   throw_input_error("{}: key '{}': got {}, expected a string", toml_location(source, *node), key,
                     describe_toml(*node));
 }
@@ -60,7 +60,7 @@ Preset load_base(const toml::table& document, const PresetSource& source, Chain&
   if (std::find(chain.begin(), chain.end(), base_source.identity) != chain.end())
     throw_input_error("{}: key 'extends': got '{}', which leads back to itself, expected no cycle", where,
                       *extends);
-  const Preset base = load_chain(base_source, chain);
+  Preset base = load_chain(base_source, chain);
   const auto model = read_text(document, source.label, "model");
   if (model && *model != base.model)
     throw_input_error("{}: key 'model': got '{}', expected '{}' as in '{}'",
