@@ -85,9 +85,11 @@ INSTANTIATE_TEST_SUITE_P(Arguments, TargetCommandBadArguments,
 
 TEST_F(TargetCommand, ADiskThatFillsUpLeavesTheOldFile) {
   test::write_bytes(folder_ / "mask.png", "old");
-  const ProgramRun run = run_shell("trap '' XFSZ; ulimit -f 0; '" ESPALIER_PROGRAM "' target " + fir_ +
-                                   " -o " + quoted(folder_ / "mask.png") + " 2>&1 | cat >&2; exit 2");
+  const ProgramRun run =
+      run_shell("(trap '' XFSZ; ulimit -f 0; '" ESPALIER_PROGRAM "' target " + fir_ + " -o " +
+                quoted(folder_ / "mask.png") + "; echo exit code $?) 2>&1 | cat >&2");
   EXPECT_THAT(run.err, HasSubstr("cannot be written"));
+  EXPECT_THAT(run.err, HasSubstr("exit code 2"));
   EXPECT_EQ(read_text_file(folder_ / "mask.png"), "old");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
 }

@@ -200,6 +200,16 @@ TEST(Compare, OutlineIouIgnoresHolesAndGapsBetweenLeaves) {
   EXPECT_EQ(outline_iou(solid, grid), 1.0);
 }
 
+TEST(Compare, OutlinesFillHolesTooWideToClose) {
+  Mask solid(256, 256), ring(256, 256);
+  for (int y = 64; y < 192; ++y)
+    for (int x = 64; x < 192; ++x) {
+      solid.set(x, y);
+      ring.set(x, y, x < 70 || x >= 186 || y < 70 || y >= 186);
+    }
+  EXPECT_EQ(outline_of(ring), outline_of(solid));
+}
+
 RC_GTEST_PROP(Compare, OutlineHoldsTheMask, ()) {
   const Mask mask = draw_mask(150);
   const Mask outline = outline_of(mask);
