@@ -1,5 +1,5 @@
 // espalier fit: fits a tree to pictures. Options become a record, the fit runs, its progress is shown.
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -214,7 +214,12 @@ void add_target_options(CLI::App& command, FitArguments& arguments) {
 
 void add_search_options(CLI::App& command, FitArguments& arguments) {
   FitRecord& record = arguments.record;
-  command.add_option("--optimizer", record.optimizer, "method of the search")->capture_default_str();
+  std::vector<std::string> methods;
+  for (const auto& optimizer : all_optimizers()) methods.push_back(optimizer->name());
+  command
+      .add_option("--optimizer", record.optimizer,
+                  fmt::format("method of the search: {}", fmt::join(methods, ", ")))
+      ->capture_default_str();
   command.add_option("--set-optimizer", arguments.settings, "a setting of the method: name=value");
   command.add_option("--objective", record.objective, "weighted sum of measures to minimise")
       ->capture_default_str();
@@ -250,6 +255,8 @@ void add_run_options(CLI::App& command, FitArguments& arguments) {
     resume->excludes(command.get_option(other));
     if (std::string(other) != "--out") repeat->excludes(command.get_option(other));
   }
+  for (const char* limit : {"--seconds", "--evaluations", "--target-fitness"})
+    repeat->excludes(command.get_option(limit));
   repeat->excludes(resume);
 }
 

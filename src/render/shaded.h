@@ -17,8 +17,8 @@ struct ShadedSettings {
   float sun_azimuth_deg = -50;    ///< relative to the viewer: negative is to the left
   float sun_elevation_deg = 42;   ///< above the horizon
   float sun_diameter_deg = 2.5f;  ///< larger than the real one: softer shadows
-  LinearRgb bark{0.20f, 0.155f, 0.115f}, twig{0.15f, 0.10f, 0.065f};
-  LinearRgb leaf{0.085f, 0.20f, 0.035f}, leaf_through{0.16f, 0.30f, 0.03f};
+  LinearRgb bark{0.17f, 0.135f, 0.10f}, twig{0.15f, 0.10f, 0.065f};
+  LinearRgb leaf{0.075f, 0.15f, 0.035f}, leaf_through{0.10f, 0.19f, 0.025f};
   LinearRgb blossom{0.80f, 0.55f, 0.62f};
   LinearRgb lawn{0.13f, 0.17f, 0.06f};
   LinearRgb background_top{0.72f, 0.84f, 0.97f}, background_bottom{1, 1, 1};

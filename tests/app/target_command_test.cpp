@@ -1,4 +1,5 @@
 // `espalier target`: what it writes and says, and that bad input is one line, exit code 2, and no file.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
+std::string quoted(const fs::path& path) { return fmt::format("\'{}\'", path.string()); }
 
 class TargetCommand : public testing::Test {
  protected:

@@ -23,20 +23,20 @@ std::vector<ParameterValues> candidates(int count) {
   return list;
 }
 
-struct Run {
+struct LoggedRun {
   std::vector<double> scores;
   BestCandidate best;
   long computed = 0, evaluations = 0;
 };
 
 /// Scores `total` candidates in batches of `batch`, with the log in `folder`.
-Run run(const fs::path& folder, int total, int batch, long limit = 0) {
+LoggedRun run_logged(const fs::path& folder, int total, int batch, long limit = 0) {
   SumScorer inner;
   EvaluationLog log(folder / "evaluations.bin");
   LoggedScorer scorer(
       inner, log, limit, [] { return 1.5; }, [](const ScoredBatch&) {});
   const auto all = candidates(total);
-  Run result;
+  LoggedRun result;
   result.scores.resize(all.size());
   for (int first = 0; first < total; first += batch) {
     const auto count = static_cast<std::size_t>(std::min(batch, total - first));
@@ -62,11 +62,11 @@ std::string error_of_log(const fs::path& path) {
 RC_GTEST_PROP(EvaluationLog, ARunCutAtAnyByteResumesToTheUnbrokenRun, ()) {
   const int total = *rc::gen::inRange(1, 40), batch = *rc::gen::inRange(1, 9);
   const fs::path folder = fresh_folder("log");
-  const Run unbroken = run(folder, total, batch);
+  const LoggedRun unbroken = run_logged(folder, total, batch);
   const auto bytes = read_text_file(folder / "evaluations.bin");
   const auto kept = *rc::gen::inRange<std::size_t>(0, bytes.size() + 1);
   fs::resize_file(folder / "evaluations.bin", kept);
-  const Run resumed = run(folder, total, batch);
+  const LoggedRun resumed = run_logged(folder, total, batch);
   RC_ASSERT(resumed.scores == unbroken.scores);
   RC_ASSERT(resumed.best.values == unbroken.best.values &&
             resumed.best.evaluation == unbroken.best.evaluation);
@@ -76,7 +76,8 @@ RC_GTEST_PROP(EvaluationLog, ARunCutAtAnyByteResumesToTheUnbrokenRun, ()) {
 }
 
 TEST(LoggedScorer, StopsEvaluatingAtTheLimitInsideABatch) {
-  const Run cut = run(fresh_folder("limit"), 30, 8, 13), whole = run(fresh_folder("no_limit"), 30, 8);
+  const LoggedRun cut = run_logged(fresh_folder("limit"), 30, 8, 13),
+                  whole = run_logged(fresh_folder("no_limit"), 30, 8);
   EXPECT_EQ(cut.computed, 13);
   EXPECT_EQ(cut.evaluations, 13);
   for (std::size_t i = 0; i < 30; ++i)
@@ -84,12 +85,12 @@ TEST(LoggedScorer, StopsEvaluatingAtTheLimitInsideABatch) {
 }
 
 TEST(LoggedScorer, KeepsTheFirstOfEqualBests) {
-  EXPECT_EQ(run(fresh_folder("ties"), 30, 4).best.evaluation, 1);
+  EXPECT_EQ(run_logged(fresh_folder("ties"), 30, 4).best.evaluation, 1);
 }
 
 TEST(LoggedScorer, RefusesALogOfOtherCandidates) {
   const fs::path folder = fresh_folder("other");
-  run(folder, 10, 5);
+  run_logged(folder, 10, 5);
   SumScorer inner;
   EvaluationLog log(folder / "evaluations.bin");
   LoggedScorer scorer(

@@ -1,0 +1,147 @@
+// Laws of the commands mask and render, run as a user runs them: files, exit codes, one line of error.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "image/picture.h"
+#include "models/models.h"
+#include "models/preset.h"
+#include "render/camera.h"
+#include "render/silhouette.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string output, error;
+};
+
+std::string contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class RenderCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = fs::temp_directory_path() /
+                 (std::string("espalier_") + testing::UnitTest::GetInstance()->current_test_info()->name() +
+                  std::to_string(getpid()));
+    fs::create_directories(directory_);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  fs::path path(const std::string& name) const { return directory_ / name; }
+
+  Outcome run(const std::string& arguments) const {
+    const std::string command = std::string("'") + ESPALIER_PROGRAM + "' " + arguments + " >'" +
+                                path("stdout").string() + "' 2>'" + path("stderr").string() + "'";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(path("stdout")), contents(path("stderr"))};
+  }
+
+  /// Exit code 2, one line on stderr that holds `text`, and no picture.
+  void expect_refused(const std::string& arguments, const std::string& text) const {
+    SCOPED_TRACE(arguments);
+    const Outcome outcome = run(arguments + " -o '" + path("x.png").string() + "'");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+    EXPECT_NE(outcome.error.find(text), std::string::npos) << outcome.error;
+    EXPECT_FALSE(fs::exists(path("x.png")));
+  }
+
+ private:
+  fs::path directory_;
+};
+
+/// Width and height in the header of a PNG, which follow 16 bytes of signature and chunk.
+std::pair<int, int> png_size(const std::string& bytes) {
+  const auto number = [&](std::size_t at) {
+    int value = 0;
+    for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes.at(i));
+    return value;
+  };
+  return {number(16), number(20)};
+}
+
+TEST_F(RenderCommand, MaskWritesWhatTheRendererDraws) {
+  ASSERT_EQ(run("mask palm --seed 3 --size 96x128 -o '" + path("x.png").string() + "'").exit_code, 0);
+  const Preset preset = load_preset("palm");
+  Plant plant;
+  ASSERT_TRUE(model_by_name(preset.model).generate(preset.values, 3, {}, plant).grown);
+  Mask mask;
+  make_embree_renderer()->draw(plant, frame_bounds(bounds(plant), {}, 96, 128), mask);
+  write_mask_png(path("expected.png"), mask);
+  EXPECT_EQ(contents(path("x.png")), contents(path("expected.png")));
+}
+
+TEST_F(RenderCommand, TheSeedAndTheViewChangeTheMask) {
+  const auto mask_of = [&](const std::string& options) {
+    EXPECT_EQ(run("mask palm --size 96 -o '" + path("x.png").string() + "' " + options).exit_code, 0);
+    return contents(path("x.png"));
+  };
+  const std::string front = mask_of("--seed 1");
+  EXPECT_EQ(mask_of("--seed 1"), front);
+  EXPECT_NE(mask_of("--seed 2"), front);
+  EXPECT_NE(mask_of("--seed 1 --view 90,0"), front);
+  EXPECT_EQ(mask_of("--seed 1 --view 90,20"), mask_of("--seed 1 --azimuth 90 --elevation 20"));
+  EXPECT_NE(mask_of("--seed 1 --perspective"), front);
+}
+
+TEST_F(RenderCommand, RenderWritesAPictureOfTheStatedSize) {
+  const Outcome outcome = run("render palm --seed 1 --size 80x60 --samples 2 --view 30,10 --ground -o '" +
+                              path("x.png").string() + "'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_EQ(png_size(contents(path("x.png"))), (std::pair{80, 60}));
+}
+
+TEST_F(RenderCommand, AnUnknownSpeciesIsRefusedWithTheClosestName) {
+  expect_refused("mask quaking_aspn --seed 1", "quaking_aspen");
+  expect_refused("render quaking_aspn --seed 1", "quaking_aspen");
+}
+
+TEST_F(RenderCommand, BadSizesAreRefused) {
+  for (const char* size :
+       {"0", "5000", "-3", "abc", "10x", "x10", "10x0", "4097x10", "1e3", "10x10x10", "nan"})
+    expect_refused(std::string("mask palm --size=") + size, size);
+}
+
+TEST_F(RenderCommand, BadViewsAreRefused) {
+  expect_refused("mask palm --view=abc", "abc");
+  expect_refused("mask palm --view=0,100", "100");
+  expect_refused("mask palm --view=nan,0", "nan");
+  expect_refused("mask palm --elevation=-91", "-91");
+  expect_refused("mask palm --azimuth=inf", "inf");
+  expect_refused("mask palm --perspective --field-of-view=0", "--field-of-view");
+}
+
+TEST_F(RenderCommand, BadSamplesAreRefused) {
+  expect_refused("render palm --samples=0", "0");
+  expect_refused("render palm --samples=100000", "100000");
+}
+
+TEST_F(RenderCommand, OutputsThatCannotBeWrittenAreRefusedBeforeAnyWork) {
+  for (const std::string output : {"/nonexistent/x.png", "/proc/x.png", "x.jpg", "."}) {
+    SCOPED_TRACE(output);
+    const Outcome outcome = run("mask weeping_willow -o '" + output + "'");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.error.find(output), std::string::npos) << outcome.error;
+  }
+}
+
+TEST_F(RenderCommand, PlantsOverTheBudgetAreRefused) {
+  expect_refused("mask quaking_aspen --set 'branches[1]=500' --set 'branches[2]=500' --set 'branches[3]=500'",
+                 "times as many");
+}
+
+}  // namespace
+}  // namespace espalier
