@@ -1,6 +1,7 @@
 #include "fitting/evaluation_log.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,9 +20,11 @@ constexpr char kMark[9] = "espfit01";
 constexpr std::size_t kMarkBytes = 8;
 static_assert(sizeof(LoggedEvaluation) == 16);
 
-/// Reads what is there, up to `size` bytes.
+/// Reads what is there; nothing from a device, which may never end.
 std::string read_all(int file) {
   std::string bytes;
+  struct stat status;
+  if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) return bytes;
   char buffer[1 << 16];
   for (ssize_t got; (got = ::read(file, buffer, sizeof buffer)) > 0;)
     bytes.append(buffer, static_cast<std::size_t>(got));

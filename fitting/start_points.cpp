@@ -27,11 +27,15 @@ void thin_count(const ParameterTable& table, const std::string& name, double fac
   values[*row] = thinned == 0 ? std::copysign(1.0, values[*row]) : thinned;
 }
 
-/// "branches[2]" for a tree of three levels.
+/// "branches[2]" for a tree of three levels, or the next level down towards the trunk that is not yet 1.
 std::string deepest_branches(const ParameterTable& table, const ParameterValues& values) {
   const auto levels = table.find("levels");
-  const int deepest = levels ? static_cast<int>(values[*levels]) - 1 : 0;
-  return fmt::format("branches[{}]", std::clamp(deepest, 1, 3));
+  int deepest = std::clamp(levels ? static_cast<int>(values[*levels]) - 1 : 0, 1, 3);
+  for (; deepest > 1; --deepest) {
+    const auto row = table.find(fmt::format("branches[{}]", deepest));
+    if (row && std::fabs(values[*row]) > 1) break;
+  }
+  return fmt::format("branches[{}]", deepest);
 }
 
 bool has_leaves(const ParameterTable& table, const ParameterValues& values) {

@@ -76,7 +76,9 @@ std::string closest_name(std::string_view name, std::span<const std::string> kno
   std::string closest;
   std::size_t least = SIZE_MAX;
   for (const std::string& candidate : known) {
-    const std::size_t distance = edit_distance(name, candidate);
+    // What begins as the candidate does was cut short: one step away.
+    const bool cut_short = name.size() >= 2 && candidate.starts_with(name);
+    const std::size_t distance = cut_short ? 1 : edit_distance(name, candidate);
     if (distance < least) closest = candidate, least = distance;
   }
   return closest;

@@ -86,6 +86,12 @@ Rgba pick_channels(const float* samples, const std::array<int, 4>& channels) {
   return rgba;
 }
 
+/// Brighter than any surface; sums and differences of such values stay finite.
+Rgba bounded(Rgba rgba) {
+  for (float& value : rgba) value = std::clamp(value, -1e6f, 1e6f);
+  return rgba;
+}
+
 /// Adds rows of a picture to the blocks of block_px × block_px pixels they fall in.
 class BlockAverage {
  public:
@@ -144,7 +150,7 @@ DecodedPicture read_pixels(ImageInput& input, const fs::path& path) {
         const Rgba rgba = pick_channels(pixel, channels);
         if (!std::all_of(rgba.begin(), rgba.end(), [](float value) { return std::isfinite(value); }))
           throw_input_error("{}: pixel ({}, {}) is not a finite number", path.string(), x, y);
-        average.add(x, y, rgba);
+        average.add(x, y, bounded(rgba));
       }
   }
   DecodedPicture picture = std::move(average).finish();

@@ -14,7 +14,8 @@ inline constexpr std::size_t kMaxSourcePixels = 100'000'000;
 inline constexpr int kMinSourceSide = 8;
 inline constexpr int kMaxDecodedSide = 4096;
 
-/// Red, green, blue, alpha; colours are premultiplied by alpha. Integer formats span 0..1.
+/// Red, green, blue, alpha; colours are premultiplied by alpha. Integer formats span 0..1, others are cut to
+/// ±1e6.
 using Rgba = std::array<float, 4>;
 
 struct DecodedPicture {

@@ -10,8 +10,9 @@
 
 namespace espalier {
 
-/// How the tree is told from the background. automatic: alpha where it carries information, else a
-/// background colour where the border has one, else luminance (Otsu's threshold).
+/// How the tree is told from the background. automatic: alpha where it carries information; else
+/// luminance (Otsu's threshold) where the picture has two tones; else the colour that most of the border
+/// has, where it has one; else luminance.
 enum class SeparationMethod { automatic, alpha, luminance, background };
 
 /// Which side of the threshold is the tree. automatic: the one the border does not show.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/error.h"
 
@@ -105,7 +104,7 @@ Range robust_range(std::vector<float> values) {
 
 int bin_of(float value, const Range& range) {
   const float share = (value - range.lower) / (range.upper - range.lower);
-  return std::clamp(static_cast<int>(share * kBins), 0, kBins - 1);
+  return std::min(static_cast<int>(std::clamp(share, 0.0f, 1.0f) * kBins), kBins - 1);
 }
 
 /// A threshold, and the tones on its two sides.

@@ -12,10 +12,12 @@ namespace espalier {
 
 namespace {
 
-/// Stems that one stem has become after its last segment, and how many there were on average on the way.
+/// What one stem has become after its last segment: stems, and what they bear relative to an unsplit one.
 struct Clones {
-  double at_tip = 1, mean = 1;
+  double at_tip = 1, leaf_share = 1, child_share = 1;
 };
+
+bool at_base_split(const WeberPennParameters& p, int level) { return level == 0 && p.base_splits != 0; }
 
 /// Generation g of clones splits with probability 1/(s+1)^g [CH §3.2.1].
 Clones expected_clones(const WeberPennParameters& p, int level) {
@@ -24,7 +26,7 @@ Clones expected_clones(const WeberPennParameters& p, int level) {
   const double rate = p.seg_splits[level_index(level)];
   const int segments = segment_count(p, level);
   const double per_split = std::max(1.0, rate);
-  double total = 1, sum = 1;
+  double total = 1, leaf_sum = 1, child_sum = 1;
   const int base_segment = static_cast<int>(std::ceil(p.base_size[0] * static_cast<float>(segments)));
   for (int at = 1; at < segments; ++at) {
     const int first = level == 0 ? base_segment : 0;
@@ -42,9 +44,13 @@ Clones expected_clones(const WeberPennParameters& p, int level) {
     stems = after;
     total = 0;
     for (const double count : stems) total += count;
-    sum += total;
+    // The last split of a stem lies, on average, half way up to here [stem_walk.cpp: thin_out].
+    const double grown_part = 1 - 0.5 * at / segments;
+    const double split = at_base_split(p, level) ? total : total - stems[0];
+    leaf_sum += total - split + split * grown_part;
+    child_sum += total - split + split * 0.8 * grown_part;
   }
-  return {total, sum / segments};
+  return {total, leaf_sum / segments, child_sum / segments};
 }
 
 /// Mean number of children of a stem relative to branches[level + 1].
@@ -73,12 +79,12 @@ GrowthEstimate estimate_growth(const WeberPennParameters& p) {
     if (level + 1 == p.level_count()) {
       const double per_stem = std::fabs(p.leaf_blos_num);
       leaves = roots * (p.leaf_blos_num < 0 ? per_stem * clones.at_tip
-                                            : per_stem * clones.mean * mean_leaf_share(p, level));
+                                            : per_stem * clones.leaf_share * mean_leaf_share(p, level));
       break;
     }
     const double children = p.branches[level_index(level + 1)];
     const bool fan = children < 0;
-    roots *= fan ? -children * clones.at_tip : children * clones.mean * mean_child_share(p, level);
+    roots *= fan ? -children * clones.at_tip : children * clones.child_share * mean_child_share(p, level);
   }
   return {stems, leaves};
 }
