@@ -123,24 +123,6 @@ TEST(Silhouette, ABentStemFollowsItsCurve) {
   EXPECT_FALSE(mask.get(static_cast<int>(chord.x_px), static_cast<int>(chord.y_px)));
 }
 
-TEST(Silhouette, ConesAgreeWithTheSweptCurvesUpToEdgePixels) {
-  const Plant plant = random_tree(200, 0, 3);
-  Plant bent = plant;
-  for (std::size_t k = 0; k < bent.knots.size(); ++k) bent.knots.handle_out_m[k] += {0.05f, 0, 0.05f};
-  for (const Plant& tree : {plant, bent}) {
-    const Camera camera = camera_at(400);
-    EmbreeScene cones(SceneQuality::fast_build, StemSurface::cones);
-    EmbreeScene curves(SceneQuality::fast_build, StemSurface::curves);
-    Mask of_cones, of_curves;
-    cones.build(tree, stem_tolerance_m(tree, camera));
-    curves.build(tree, stem_tolerance_m(tree, camera));
-    cones.trace(camera, of_cones);
-    curves.trace(camera, of_curves);
-    EXPECT_GT(area_px(of_curves), 2000u);
-    EXPECT_LT(differing_px(of_cones, of_curves), area_px(of_curves) / 50);
-  }
-}
-
 TEST(Silhouette, AreaGrowsWithSquareOfScale) {
   const Plant plant = random_tree(100, 500, 1);
   const Camera camera = camera_at(800);
@@ -226,19 +208,6 @@ TEST(Silhouette, ALeafFromTheSideIsAsWideAsItsCosine) {
   add_leaf(plant, {0, 0, 0}, {0, 0, 1}, {std::cos(angle), std::sin(angle), 0}, 8, 8);
   const Camera camera = camera_at(400);
   EXPECT_NEAR(area_m2(silhouette(plant, camera), camera), 64 * 0.5, 0.64);
-}
-
-TEST(Silhouette, ABlossomOpensAlongItsAxis) {
-  for (int shape = 1; shape <= 3; ++shape) {
-    Plant plant;
-    plant.blossom_shape = shape;
-    add_leaf(plant, {0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 6, 6, LeafKind::blossom);
-    const Camera camera = camera_at(256);
-    const Mask mask = silhouette(plant, camera);
-    const PicturePoint stalk = project(camera, {0, 0, 0});
-    EXPECT_NEAR(lowest_row(mask), static_cast<int>(stalk.y_px), 2) << shape;
-    EXPECT_GT(area_m2(mask, camera), 6) << shape;
-  }
 }
 
 TEST(Silhouette, AnEmptyPlantIsAnEmptyMaskOfTheCamerasSize) {
