@@ -64,12 +64,14 @@ void frame_orthographic(Camera& camera, Vec3 middle, const Bounds& box, float ma
 /// The eye goes back along the axis until every corner lies inside the frame divided by the margin.
 void frame_perspective(Camera& camera, Vec3 middle, const Bounds& box, float half_tangent, float margin) {
   const float aspect = static_cast<float>(camera.width_px) / static_cast<float>(camera.height_px);
-  float distance_m = 0;
+  float distance_m = 0, nearest_corner_m = 0;
   for (const Vec3 c : corners_in_camera(camera, box)) {
+    nearest_corner_m = std::max(nearest_corner_m, -c.z);
     distance_m = std::max(distance_m, std::fabs(c.x) * margin / (half_tangent * aspect) - c.z);
     distance_m = std::max(distance_m, std::fabs(c.y) * margin / half_tangent - c.z);
   }
-  if (!(distance_m > kSmallestFrameM)) distance_m = 0.5f / half_tangent;
+  // A box seen as a point: a frame one metre high at its nearest corner.
+  if (!(distance_m > nearest_corner_m + kSmallestFrameM)) distance_m = nearest_corner_m + 0.5f / half_tangent;
   camera.metres_per_px = 2 * half_tangent / static_cast<float>(camera.height_px);
   camera.position_m = middle - camera.forward * distance_m;
 }

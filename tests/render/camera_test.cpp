@@ -58,16 +58,16 @@ TEST(Camera, PositiveElevationLooksDown) {
 }
 
 TEST(Camera, ViewsAreOrthonormal) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const Camera camera = frame_bounds(any_box(), any_view(), 64, 64);
     RC_ASSERT(std::fabs(dot(camera.right, camera.up)) < 1e-5f);
     RC_ASSERT(std::fabs(length(camera.up) - 1) < 1e-5f);
     RC_ASSERT(length(cross(camera.right, camera.forward) - camera.up) < 1e-5f);
-  });
+  }));
 }
 
 TEST(Camera, ProjectInvertsCameraRay) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const Camera camera = frame_bounds(any_box(), any_view(), 200, 100);
     const float x = static_cast<float>(*rc::gen::inRange(0, 200)),
                 y = static_cast<float>(*rc::gen::inRange(0, 100));
@@ -76,7 +76,7 @@ TEST(Camera, ProjectInvertsCameraRay) {
     RC_ASSERT(std::fabs(p.x_px - x) < 0.02f);
     RC_ASSERT(std::fabs(p.y_px - y) < 0.02f);
     RC_ASSERT(p.depth_m > 0);
-  });
+  }));
 }
 
 TEST(Camera, RightOfThePictureIsRightAndTopIsUp) {
@@ -86,7 +86,7 @@ TEST(Camera, RightOfThePictureIsRightAndTopIsUp) {
 }
 
 TEST(FrameBounds, HoldsTheBoxWithItsMargin) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const Bounds box = any_box();
     const int width = *rc::gen::inRange(16, 500), height = *rc::gen::inRange(16, 500);
     const Camera camera = frame_bounds(box, any_view(), width, height, 1.1f);
@@ -96,7 +96,7 @@ TEST(FrameBounds, HoldsTheBoxWithItsMargin) {
       RC_ASSERT(p.x_px > 0.04f * width && p.x_px < 0.96f * width);
       RC_ASSERT(p.y_px > 0.04f * height && p.y_px < 0.96f * height);
     }
-  });
+  }));
 }
 
 TEST(FrameBounds, TheLargerSideFillsTheFrameUpToTheMargin) {
@@ -111,7 +111,7 @@ TEST(FrameBounds, APointGetsAFrameOneMetreHigh) {
 }
 
 TEST(FrameBase, PutsTheBaseOnItsRowAndKeepsTheScaleThere) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const Vec3 base{any_metres(-5, 5), any_metres(-5, 5), any_metres(-5, 5)};
     const Camera camera = frame_base(base, any_view(), 0.05f, 128, 96, 90);
     const PicturePoint p = project(camera, base);
@@ -120,7 +120,7 @@ TEST(FrameBase, PutsTheBaseOnItsRowAndKeepsTheScaleThere) {
     RC_ASSERT(p.depth_m > 0);
     RC_ASSERT(std::fabs(project(camera, base + camera.up).y_px - 70) < 0.02f);
     RC_ASSERT(std::fabs(project(camera, base + camera.right).x_px - 84) < 0.02f);
-  });
+  }));
 }
 
 }  // namespace

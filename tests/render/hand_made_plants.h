@@ -1,5 +1,6 @@
 // Plants made by hand for laws of rendering and for speed: a few stems and leaves of known size. Metres.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
