@@ -38,7 +38,7 @@ struct FitRecord {
   std::string optimizer = "cma_es";
   OptimizerSettings optimizer_settings;
   FitBudget budget;
-  GrowthBudget growth{20'000, 100'000};
+  GrowthBudget growth{1'500, 6'000};
   Seed seed = 1;
   std::string start = "auto";
   SearchChoice search;

@@ -27,6 +27,15 @@ void thin_count(const ParameterTable& table, const std::string& name, double fac
   values[*row] = thinned == 0 ? std::copysign(1.0, values[*row]) : thinned;
 }
 
+/// Fewer leaves, as much larger: together they cover the same area.
+void thin_leaves(const ParameterTable& table, double factor, ParameterValues& values) {
+  const auto count = table.find("leaf_blos_num"), scale = table.find("leaf_scale");
+  const double before = count ? values[*count] : 0;
+  thin_count(table, "leaf_blos_num", factor, values);
+  if (scale && before != 0)
+    values[*scale] = std::min(values[*scale] * std::sqrt(before / values[*count]), table.rows[*scale].upper);
+}
+
 /// "branches[2]" for a tree of three levels, or the next level down towards the trunk that is not yet 1.
 std::string deepest_branches(const ParameterTable& table, const ParameterValues& values) {
   const auto levels = table.find("levels");
@@ -102,7 +111,7 @@ void thin_to_budget(const Model& model, const GrowthBudget& budget, ParameterVal
     if (estimate.stems > budget.max_stems)
       thin_count(table, deepest_branches(table, values), stem_factor, values);
     else
-      thin_count(table, "leaf_blos_num", leaf_factor, values);
+      thin_leaves(table, leaf_factor, values);
   }
 }
 

@@ -68,10 +68,17 @@ std::vector<Eigen::VectorXd> in_order(const std::vector<Eigen::VectorXd>& candid
   return sorted;
 }
 
+/// A start point is worth staying near to: with 0.3, a fit's first samples are all worse than its preset, and
+/// a minute is too short to come back (experiments/README.md). Restarts look everywhere [Hansen, section B].
+double first_sigma(const Search& run, std::uint64_t restart) {
+  if (const double given = run.setting("sigma0"); given > 0) return given;
+  return restart == 0 && !run.starts.empty() ? 0.05 : 0.3;
+}
+
 /// One strategy from its first mean until it has nothing left to find.
 void run_strategy(Search& run, std::size_t lambda, std::uint64_t restart) {
   const RandomKey key = child_key(child_key(run.key, restart), 1);
-  CmaDistribution cma(first_mean(run, restart), run.setting("sigma0"), lambda);
+  CmaDistribution cma(first_mean(run, restart), first_sigma(run, restart), lambda);
   FlatHistory history(run.evaluator.dimension(), lambda);
   for (std::uint64_t generation = 0; !cma.is_exhausted(run.setting("tol_x")); ++generation) {
     const auto candidates = sample_all(cma, lambda, key, generation);
@@ -93,7 +100,8 @@ class CmaEs final : public SearchMethod {
   std::vector<SettingInfo> settings() const override {
     return {
         {"population", 0, 0, 65536, "candidates a generation; 0: 4 + floor(3 ln n); 1 counts as 2", true},
-        {"sigma0", 0.3, 1e-6, 1, "first standard deviation, as a share of the box"},
+        {"sigma0", 0, 0, 1,
+         "first standard deviation, as a share of the box; 0: 0.05 at a start point, else 0.3"},
         {"growth", 2, 1, 16, "factor on the population at each restart, up to 65536"},
         {"tol_x", 1e-11, 1e-15, 0.1, "standard deviation below which a restart follows"},
         {"tol_fun", 1e-12, 0, 1e6, "range of values below which a restart follows"},

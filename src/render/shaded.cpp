@@ -63,15 +63,16 @@ std::uint8_t srgb_byte(float linear) {
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(encoded, 0.0f, 1.0f)));
 }
 
-LinearRgb background(const ShadedSettings& settings, const Camera& camera, float y_px) {
+/// One colour a row: what a pixel shows does not depend on whether its samples were traced.
+LinearRgb background(const ShadedSettings& settings, const Camera& camera, int y) {
   return lerp(settings.background_top, settings.background_bottom,
-              y_px / static_cast<float>(camera.height_px));
+              (static_cast<float>(y) + 0.5f) / static_cast<float>(camera.height_px));
 }
 
 /// The colour on screen (tone-mapped, linear) that one sample of a pixel sees.
 LinearRgb sample_color(const Shader& shader, const Camera& camera, float x_px, float y_px, RandomKey pixel,
                        int sample) {
-  const LinearRgb behind = background(shader.settings, camera, y_px);
+  const LinearRgb behind = background(shader.settings, camera, static_cast<int>(y_px));
   const std::optional<Surface> surface = shader.surfaces.first_hit(camera_ray(camera, x_px, y_px));
   if (!surface) return behind;
   const LinearRgb light = shader.light_from_sun(*surface, sample_point(pixel, kSunPurpose, sample)) +
@@ -93,7 +94,7 @@ Rgb pixel_color(const Shader& shader, const Camera& camera, int x, int y) {
 }
 
 Rgb background_color(const ShadedSettings& settings, const Camera& camera, int y) {
-  const LinearRgb color = background(settings, camera, static_cast<float>(y) + 0.5f);
+  const LinearRgb color = background(settings, camera, y);
   return {srgb_byte(color.x), srgb_byte(color.y), srgb_byte(color.z)};
 }
 

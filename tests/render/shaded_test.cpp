@@ -32,6 +32,36 @@ TEST(Shaded, AnEmptyPlantIsBackground) {
   for (const Rgb pixel : picture.pixels) EXPECT_EQ(pixel, (Rgb{255, 255, 255}));
 }
 
+TEST(Shaded, CoversTheSilhouetteAndNothingElse) {
+  const Plant plant = random_tree(60, 400, 1);
+  const Camera camera = camera_of(plant, 96);
+  ShadedSettings settings;
+  settings.background_top = settings.background_bottom = {1, 1, 1};
+  settings.samples_per_px = 64;
+  const Picture picture = render_shaded(plant, camera, settings);
+  Mask mask;
+  make_embree_renderer()->draw(plant, camera, mask);
+  std::size_t missing = 0;
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 96; ++x) {
+      const bool is_white = picture.at(x, y) == Rgb{255, 255, 255};
+      missing += mask.get(x, y) && is_white;
+    }
+  EXPECT_LE(missing, 1u);  // specks that fall between the samples of a pixel
+}
+
+TEST(Shaded, WhatStandsBetweenSunAndLeafDarkensIt) {
+  Plant plant = screen({1, 0, 0});
+  const Camera camera = camera_of(plant, 32);
+  ShadedSettings settings;
+  settings.sun_azimuth_deg = -60;
+  settings.sun_elevation_deg = 0;
+  const Rgb lit = render_shaded(plant, camera, settings).at(16, 16);
+  add_leaf(plant, {-8.66f, -5, -2}, {0, 0, 1}, {0.5f, -0.866f, 0}, 6, 6);  // 10 m towards the sun, facing it
+  const Rgb dark = render_shaded(plant, camera, settings).at(16, 16);
+  EXPECT_LT(4 * brightness(dark), 3 * brightness(lit));
+}
+
 TEST(Shaded, ALeafLetsLightThrough) {
   const Plant plant = screen({1, 0, 0});
   ShadedSettings settings;
@@ -41,6 +71,22 @@ TEST(Shaded, ALeafLetsLightThrough) {
   settings.leaf_through = {0, 0, 0};
   const Rgb opaque = render_shaded(plant, camera_of(plant, 32), settings).at(16, 16);
   EXPECT_GT(brightness(through), brightness(opaque) + 30);
+}
+
+TEST(Shaded, TheGroundIsSeenFromAboveOnly) {
+  const Plant plant = random_tree(20, 100, 1);
+  ShadedSettings without, with;
+  without.samples_per_px = with.samples_per_px = 2;
+  with.ground = true;
+  const auto pixels_that_differ = [&](float elevation_deg) {
+    const Camera camera = camera_of(plant, 48, elevation_deg);
+    const Picture a = render_shaded(plant, camera, without), b = render_shaded(plant, camera, with);
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) differing += a.pixels[i] != b.pixels[i];
+    return differing;
+  };
+  EXPECT_EQ(pixels_that_differ(0), 0u);
+  EXPECT_GT(pixels_that_differ(15), 100u);
 }
 
 TEST(Shaded, AnyNumberOfThreadsGivesTheSameBits) {

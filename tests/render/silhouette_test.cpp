@@ -127,6 +127,47 @@ TEST(Silhouette, ABentStemFollowsItsCurve) {
   EXPECT_FALSE(mask.get(static_cast<int>(chord.x_px), static_cast<int>(chord.y_px)));
 }
 
+/// Pixels of `mask` with a neighbour outside of it, and their neighbours: where an edge runs.
+Mask edges_of(const Mask& mask) {
+  Mask edges(mask.width_px(), mask.height_px());
+  for (int y = 0; y < mask.height_px(); ++y)
+    for (int x = 0; x < mask.width_px(); ++x) {
+      int set = 0;
+      for (int j = std::max(y - 1, 0); j <= std::min(y + 1, mask.height_px() - 1); ++j)
+        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, mask.width_px() - 1); ++i)
+          set += mask.get(i, j);
+      edges.set(x, y, set > 0 && set < 9);
+    }
+  return edges;
+}
+
+TEST(Silhouette, ConesAgreeWithTheSweptCurvesUpToEdgePixels) {
+  const Plant plant = random_tree(200, 0, 3);
+  Plant bent = plant;
+  for (std::size_t k = 0; k < bent.knots.size(); ++k) bent.knots.handle_out_m[k] += {0.05f, 0, 0.05f};
+  for (const Plant& tree : {plant, bent}) {
+    const Camera camera = camera_at(400);
+    EmbreeScene cones(SceneQuality::fast_build, StemSurface::cones);
+    EmbreeScene curves(SceneQuality::fast_build, StemSurface::curves);
+    Mask of_cones, of_curves;
+    cones.build(tree, stem_tolerance_m(tree, camera));
+    curves.build(tree, stem_tolerance_m(tree, camera));
+    cones.trace(camera, of_cones);
+    curves.trace(camera, of_curves);
+    const Mask curve_edges = edges_of(of_curves), cone_edges = edges_of(of_cones);
+    std::size_t differing = 0, off_edges = 0;
+    for (int y = 0; y < 400; ++y)
+      for (int x = 0; x < 400; ++x) {
+        const bool differs = of_cones.get(x, y) != of_curves.get(x, y);
+        differing += differs;
+        off_edges += differs && !curve_edges.get(x, y) && !cone_edges.get(x, y);
+      }
+    EXPECT_GT(area_px(of_curves), 2000u);
+    EXPECT_EQ(off_edges, 0u);
+    EXPECT_LT(differing, area_px(curve_edges) / 50);
+  }
+}
+
 TEST(Silhouette, AreaGrowsWithSquareOfScale) {
   const Plant plant = random_tree(100, 500, 1);
   const Camera camera = camera_at(800);
@@ -212,6 +253,20 @@ TEST(Silhouette, ALeafFromTheSideIsAsWideAsItsCosine) {
   add_leaf(plant, {0, 0, 0}, {0, 0, 1}, {std::cos(angle), std::sin(angle), 0}, 8, 8);
   const Camera camera = camera_at(400);
   EXPECT_NEAR(area_m2(silhouette(plant, camera), camera), 64 * 0.5, 0.64);
+}
+
+TEST(Silhouette, ABlossomOpensAlongItsAxis) {
+  for (int shape = 1; shape <= 3; ++shape) {
+    Plant plant;
+    plant.blossom_shape = shape;
+    add_leaf(plant, {0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 6, 6, LeafKind::blossom);
+    const Camera camera = camera_at(256);
+    const Mask mask = silhouette(plant, camera);
+    const PicturePoint stalk = project(camera, {0, 0, 0});
+    EXPECT_NEAR(lowest_row(mask), static_cast<int>(stalk.y_px), 2) << shape;
+    EXPECT_GT(area_m2(mask, camera), 36 / 8.0)
+        << shape;  // an eighth of the square around a flower seen from the side
+  }
 }
 
 TEST(Silhouette, AnEmptyPlantIsAnEmptyMaskOfTheCamerasSize) {
