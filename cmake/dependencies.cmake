@@ -14,6 +14,7 @@ pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(assimp REQUIRED IMPORTED_TARGET GLOBAL assimp)
 add_library(assimp::assimp ALIAS PkgConfig::assimp)
 find_package(embree 3 REQUIRED)
+find_package(HWY REQUIRED)
 # Two Debian packages share the name NLopt; the C++ build holds every algorithm, AGS too.
 set(NLopt_DIR /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/nlopt_cxx CACHE PATH "NLopt built with its C++ algorithms")
 find_package(NLopt REQUIRED)

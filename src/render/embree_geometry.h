@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "plant/leaf_half.h"
 #include "plant/plant.h"
 
 namespace espalier {
@@ -43,11 +44,6 @@ struct LeafPolygons {
   struct Plane {
     Vec3 position_m, normal, x_per_m, y_per_m;
   };
-  /// An edge of the right half of the outline: x = x0 + slope·(y − y0) for y in [y0, y1).
-  struct Edge {
-    float y0, y1, x0, slope;
-  };
-
   void collect(const Plant& plant);
   void set_on(RTCGeometry geometry);
   std::size_t size() const { return planes.size(); }
@@ -55,8 +51,7 @@ struct LeafPolygons {
   std::vector<Plane> planes;
   std::vector<Bounds> boxes;
   std::vector<std::uint32_t> leaf;  ///< index in Plant::leaves of each plane
-  std::vector<Edge> edges;
-  float half_width = 0;  ///< of the outline
+  const LeafHalf* half = nullptr;   ///< of the outline
 };
 
 struct BlossomTriangles {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "plant/leaf_outlines.h"
 #include "render/embree_geometry.h"
 
 namespace espalier {
@@ -14,17 +13,6 @@ namespace {
 
 constexpr float kSmallestLeafM = 1e-7f;
 constexpr float kLargestCoordinateM = 1e9f;
-
-std::vector<LeafPolygons::Edge> right_half(const LeafOutline& outline) {
-  std::vector<LeafPolygons::Edge> edges;
-  for (std::size_t i = 0; i + 1 < outline.vertices.size(); ++i) {
-    Vec3 a = outline.vertices[i], b = outline.vertices[i + 1];
-    if (a.x < 0 || b.x < 0 || a.y == b.y) continue;
-    if (a.y > b.y) std::swap(a, b);
-    edges.push_back({a.y, b.y, a.x, (b.x - a.x) / (b.y - a.y)});
-  }
-  return edges;
-}
 
 Vec3 absolute(Vec3 a) { return {std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}; }
 
@@ -56,7 +44,7 @@ bool is_usable(const LeafPolygons::Plane& plane) {
 void collect_leaf(LeafPolygons& polygons, const Leaves& leaves, std::size_t i) {
   if (!(leaves.length_m[i] > kSmallestLeafM) || !(leaves.width_m[i] > kSmallestLeafM)) return;
   const Vec3 side = leaves.side[i] * leaves.width_m[i], axis = leaves.axis[i] * leaves.length_m[i];
-  const Bounds box = leaf_box(leaves.position_m[i], side * polygons.half_width, axis);
+  const Bounds box = leaf_box(leaves.position_m[i], side * polygons.half->half_width, axis);
   const LeafPolygons::Plane plane = leaf_plane(leaves.position_m[i], side, axis);
   if (!is_usable(box) || !is_usable(plane)) return;
   polygons.planes.push_back(plane);
@@ -68,14 +56,6 @@ void box_callback(const RTCBoundsFunctionArguments* arguments) {
   const auto& polygons = *static_cast<const LeafPolygons*>(arguments->geometryUserPtr);
   const Bounds& box = polygons.boxes[arguments->primID];
   *arguments->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, 0};
-}
-
-/// x (not negative) and y of the outline: inside where an odd number of edges lie to the right.
-bool is_inside(const LeafPolygons& polygons, float x, float y) {
-  bool inside = false;
-  for (const LeafPolygons::Edge& edge : polygons.edges)
-    inside ^= (y >= edge.y0) & (y < edge.y1) & (x < edge.x0 + edge.slope * (y - edge.y0));
-  return inside;
 }
 
 /// Distance to the leaf along ray i of the packet, in lengths of its direction; infinite where it misses.
@@ -92,7 +72,7 @@ float hit_distance(const LeafPolygons& polygons, unsigned primitive, RTCRayN* ra
   const float y = dot(point, plane.y_per_m);
   if (!(y >= 0 && y <= 1)) return kMiss;
   const float x = std::fabs(dot(point, plane.x_per_m));
-  return x <= polygons.half_width && is_inside(polygons, x, y) ? distance : kMiss;
+  return x <= polygons.half->half_width && polygons.half->contains(x, y) ? distance : kMiss;
 }
 
 void occluded_callback(const RTCOccludedFunctionNArguments* arguments) {
@@ -132,10 +112,7 @@ void LeafPolygons::collect(const Plant& plant) {
   planes.clear();
   boxes.clear();
   leaf.clear();
-  const LeafOutline& outline = leaf_outline(plant.leaf_shape);
-  edges = right_half(outline);
-  half_width = 0;
-  for (const Vec3 v : outline.vertices) half_width = std::max(half_width, v.x);
+  half = &leaf_half(plant.leaf_shape);
   for (std::size_t i = 0; i < plant.leaves.size(); ++i)
     if (plant.leaves.kind[i] == LeafKind::leaf) collect_leaf(*this, plant.leaves, i);
 }

@@ -20,4 +20,8 @@ class SilhouetteRenderer {
 /// picture; leaves are their polygons (render/embree_geometry.h).
 std::unique_ptr<SilhouetteRenderer> make_embree_renderer();
 
+/// The fast one, for searches: draws the same pixels by scan lines, but for a few on edges
+/// (docs/fast_path.md).
+std::unique_ptr<SilhouetteRenderer> make_scanline_renderer();
+
 }  // namespace espalier

@@ -1,5 +1,6 @@
-// What one evaluation of a fit costs, part by part: generate, build the scene, trace the mask, compare it
-// with a target, and all of them. One thread, all leaves, whole plant in the frame, a new seed each time.
+// What one evaluation of a fit costs, part by part: generate, draw (by Embree: build the scene, trace the
+// mask; by scan lines: scan), compare with a target, and all of them. One thread, all leaves, whole plant in
+// the frame, a new seed each time.
 //   build/bin/bench_evaluation --benchmark_filter=quaking_aspen
 #include <benchmark/benchmark.h>
 
@@ -10,6 +11,7 @@
 #include "models/models.h"
 #include "models/preset.h"
 #include "render/embree_scene.h"
+#include "render/silhouette.h"
 
 namespace espalier {
 namespace {
@@ -80,19 +82,35 @@ void compare(benchmark::State& state, const std::string& species, int size_px) {
   for (auto _ : state) benchmark::DoNotOptimize(iou(mask, setting.target));
 }
 
-void evaluate(benchmark::State& state, const std::string& species, int size_px) {
+void scan(benchmark::State& state, const std::string& species, int size_px) {
   const Setting setting(species, size_px);
-  EmbreeScene scene;
+  const Plant plant = setting.grown(1);
+  const auto renderer = make_scanline_renderer();
+  Mask mask;
+  for (auto _ : state) renderer->draw(plant, setting.camera, mask);
+  state.counters["px"] = static_cast<double>(area_px(mask));
+}
+
+void evaluate_with(SilhouetteRenderer& renderer, benchmark::State& state, const std::string& species,
+                   int size_px) {
+  const Setting setting(species, size_px);
   Plant plant;
   Mask mask;
   Seed seed = 0;
   for (auto _ : state) {
     setting.grow(++seed, plant);
-    scene.build(plant, stem_tolerance_m(plant, setting.camera));
-    scene.trace(setting.camera, mask);
+    renderer.draw(plant, setting.camera, mask);
     benchmark::DoNotOptimize(iou(mask, setting.target));
   }
   state.SetItemsProcessed(state.iterations());
+}
+
+void evaluate_embree(benchmark::State& state, const std::string& species, int size_px) {
+  evaluate_with(*make_embree_renderer(), state, species, size_px);
+}
+
+void evaluate_scanline(benchmark::State& state, const std::string& species, int size_px) {
+  evaluate_with(*make_scanline_renderer(), state, species, size_px);
 }
 
 using Part = void (*)(benchmark::State&, const std::string&, int);
@@ -116,7 +134,9 @@ bool add_all() {
       add("build", build, species, size_px);
       add("trace", trace, species, size_px);
       add("compare", compare, species, size_px);
-      add("evaluate", evaluate, species, size_px);
+      add("scan", scan, species, size_px);
+      add("evaluate_embree", evaluate_embree, species, size_px);
+      add("evaluate_scanline", evaluate_scanline, species, size_px);
     }
   }
   return true;

@@ -1,0 +1,27 @@
+// The right half of a leaf's outline as edges: what a point is tested against. Unit length, no unit.
+#pragma once
+#include <vector>
+
+namespace espalier {
+
+struct LeafHalf {
+  /// x = x0 + slope·(y − y0) for y in [y0, y1).
+  struct Edge {
+    float y0, y1, x0, slope;
+  };
+  std::vector<Edge> edges;
+  float half_width = 0;
+
+  /// x (not negative) and y of the outline: inside where an odd number of edges lie to the right.
+  bool contains(float x, float y) const {
+    bool inside = false;
+    for (const Edge& edge : edges)
+      inside ^= (y >= edge.y0) & (y < edge.y1) & (x < edge.x0 + edge.slope * (y - edge.y0));
+    return inside;
+  }
+};
+
+/// The half of leaf_outline(shape). The reference stays valid.
+const LeafHalf& leaf_half(int shape);
+
+}  // namespace espalier

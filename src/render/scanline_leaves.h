@@ -1,0 +1,13 @@
+// Leaves drawn by scan lines: for each, the map from the picture to its outline, and a test of the pixels in
+// its box. Pixels. Runs on the best vector instructions of the machine, with the same bits on all.
+#pragma once
+#include "image/mask.h"
+#include "plant/plant.h"
+#include "render/camera.h"
+
+namespace espalier {
+
+/// Sets the pixels whose centres' rays meet a leaf (not a blossom).
+void draw_leaves(const Plant& plant, const Camera& camera, Mask& mask);
+
+}  // namespace espalier

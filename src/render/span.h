@@ -1,0 +1,42 @@
+// Runs of pixels in a row of a mask: what a scan line leaves behind.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+
+namespace espalier {
+
+/// Bits [begin, end) of one word; 0 <= begin < end <= 64.
+inline std::uint64_t bit_run(int begin, int end) {
+  return (~std::uint64_t{0} << begin) & (~std::uint64_t{0} >> (64 - end));
+}
+
+/// Sets pixels [begin, end) of a row; 0 <= begin < end <= its width.
+inline void set_span(std::uint64_t* row, int begin, int end) {
+  int word = begin >> 6;
+  const int last = (end - 1) >> 6;
+  for (begin &= 63; word < last; ++word, begin = 0) row[word] |= bit_run(begin, 64);
+  row[word] |= bit_run(begin, ((end - 1) & 63) + 1);
+}
+
+/// True where pixels [begin, end) of a row are all set.
+inline bool is_span_set(const std::uint64_t* row, int begin, int end) {
+  int word = begin >> 6;
+  const int last = (end - 1) >> 6;
+  for (begin &= 63; word < last; ++word, begin = 0)
+    if ((~row[word] & bit_run(begin, 64)) != 0) return false;
+  return (~row[word] & bit_run(begin, ((end - 1) & 63) + 1)) == 0;
+}
+
+/// The pixels of [0, size) whose centres i + 0.5 lie in [low, high].
+struct PixelRun {
+  int begin, end;
+};
+inline PixelRun centres_between(float low, float high, int size) {
+  const float first = std::max(low - 0.5f, 0.0f), limit = static_cast<float>(size);
+  if (!(first < limit) || !(high >= 0.5f)) return {0, 0};
+  const int floor_of_first = static_cast<int>(first);
+  return {floor_of_first + (static_cast<float>(floor_of_first) < first),
+          static_cast<int>(std::min(high + 0.5f, limit))};
+}
+
+}  // namespace espalier
