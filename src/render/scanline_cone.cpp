@@ -11,7 +11,6 @@ namespace espalier {
 
 namespace {
 
-constexpr float kThinnestEllipsePx = 0.1f;  ///< half width up to which the end of a cone is a line
 constexpr float kShortestConePx = 1e-4f;
 
 /// The axis has the unit direction (ux, uy) and this length.
@@ -49,11 +48,16 @@ void draw_ellipse(ConeEnd disc, float minor, float ux, float uy, Mask& mask) {
 
 void draw_cone(ConeEnd a, ConeEnd b, float tilt, Mask& mask) {
   const float dx = b.x - a.x, dy = b.y - a.y, axis_px = std::sqrt(dx * dx + dy * dy);
-  const bool has_sides = axis_px > kShortestConePx;
-  const float ux = has_sides ? dx / axis_px : 1, uy = has_sides ? dy / axis_px : 0;
-  if (has_sides) draw_sides(a, b, ux, uy, axis_px, mask);
-  if (a.radius * tilt > kThinnestEllipsePx) draw_ellipse(a, a.radius * tilt, ux, uy, mask);
-  if (b.radius * tilt > kThinnestEllipsePx) draw_ellipse(b, b.radius * tilt, ux, uy, mask);
+  if (axis_px > kShortestConePx) draw_sides(a, b, dx / axis_px, dy / axis_px, axis_px, mask);
+  draw_cone_ends(a, b, tilt, mask);
+}
+
+void draw_cone_ends(ConeEnd a, ConeEnd b, float tilt, Mask& mask) {
+  const float dx = b.x - a.x, dy = b.y - a.y, axis_px = std::sqrt(dx * dx + dy * dy);
+  const bool has_axis = axis_px > kShortestConePx;
+  const float ux = has_axis ? dx / axis_px : 1, uy = has_axis ? dy / axis_px : 0;
+  for (const ConeEnd& end : {a, b})
+    if (end.radius * tilt > kThinnestEllipsePx) draw_ellipse(end, end.radius * tilt, ux, uy, mask);
 }
 
 }  // namespace espalier

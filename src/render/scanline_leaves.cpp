@@ -12,18 +12,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vector_math-inl.h"
 #include "plant/leaf_half.h"
 #include "render/span.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace espalier {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Floats = hn::CappedTag<float, 8>;
-using Vector = hn::Vec<Floats>;
-constexpr std::size_t kMostLanes = 8;
+namespace {
 
 /// x = (x[0] + x[1]·column + x[2]·row) / w, with column and row at pixel centres; y likewise. In an
 /// orthographic picture w = 1. A leaf in front of a perspective camera has w > 0.
@@ -103,10 +99,6 @@ struct OrthographicBatch {
     const PixelRun rows = centres_between(top[i], bottom[i], mask.height_px());
     return {columns.begin, columns.end, rows.begin, rows.end};
   }
-};
-
-struct Vector3 {
-  Vector x, y, z;
 };
 
 Vector3 load3(const Vec3* from) {
@@ -251,6 +243,7 @@ void draw_perspective(const Plant& plant, const Camera& camera, Mask& mask) {
   }
 }
 
+}  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace espalier
 HWY_AFTER_NAMESPACE();

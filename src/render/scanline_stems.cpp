@@ -1,151 +1,286 @@
 // Curves in the picture, cut into cones. A cubic curve cut into n equal parts deviates from its chords by at
-// most max|B''|/(8n²), and at a joint that turns by an angle a the cones gap by radius·a/2.
+// most max|B''|/(8n²), and at a joint that turns by an angle a the cones gap by radius·a/2. Most segments of
+// a tree are one cone: those of an orthographic picture are prepared a vector of segments at a time, and
+// their scan lines a vector of rows at a time. All else takes the plain path, with the same formulas.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/scanline_stems.cpp"
 #include "render/scanline_stems.h"
 
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "core/vector_math-inl.h"
 #include "render/scanline_cone.h"
+#include "render/span.h"
+#include "render/stem_curve.h"
 
+HWY_BEFORE_NAMESPACE();
 namespace espalier {
-
+namespace HWY_NAMESPACE {
 namespace {
 
-constexpr float kTolerancePx = 0.125f;
-constexpr float kLargestPx = 1e6f;
-constexpr int kMostCones = 64;
+constexpr int kBatch = 64;  ///< knots prepared at once
+constexpr float kFarPx = 1e9f;
 
-/// A point of a stem in the picture. Differences of depth are lengths along the view, in pixels at that
-/// depth.
-struct StemPoint {
-  float x = 0, y = 0, depth = 0;
+struct Line {
+  Vector at_zero, by_row;  ///< x along scan lines
+
+  Vector at(Vector y) const { return hn::Add(at_zero, hn::Mul(by_row, y)); }
 };
 
-StemPoint operator+(StemPoint a, StemPoint b) { return {a.x + b.x, a.y + b.y, a.depth + b.depth}; }
-StemPoint operator-(StemPoint a, StemPoint b) { return {a.x - b.x, a.y - b.y, a.depth - b.depth}; }
-StemPoint operator*(float s, StemPoint a) { return {s * a.x, s * a.y, s * a.depth}; }
-float length_px(StemPoint a) { return std::sqrt(a.x * a.x + a.y * a.y); }
-
-struct StemKnot {
-  StemPoint point;
-  float radius_px = 0;
+struct Limit {
+  Line line;
+  hn::Mask<Floats> is_upper;
 };
 
-struct StemCurve {
-  StemPoint p0, p1, p2, p3;
-  float r0, r1;  ///< radius in pixels
+Line choose(hn::Mask<Floats> where, const Line& a, const Line& b) {
+  return {hn::IfThenElse(where, a.at_zero, b.at_zero), hn::IfThenElse(where, a.by_row, b.by_row)};
+}
 
-  StemPoint at(float t) const {
-    const float u = 1 - t;
-    return u * u * u * p0 + 3 * u * u * t * p1 + 3 * u * t * t * p2 + t * t * t * p3;
-  }
+/// One number for each segment or cone of a batch.
+using Column = std::array<float, kBatch + kMostLanes>;
+
+/// What cones need for their scan lines.
+struct ConeColumns {
+  alignas(64) std::array<Column, 6> at_zero, by_row;  ///< three lower and three upper bounds of x
+  alignas(64) Column x0, y0, x1, y1, r0, r1, tilt;    ///< both ends; rows count from y0
+  alignas(64) Column top, bottom;
 };
 
-/// What is behind a perspective camera has no place in its picture: not a number.
-class StemProjection {
+/// Curves of segments, each control point a row of three columns: x, y, depth.
+struct CurveColumns {
+  alignas(64) std::array<std::array<Column, 3>, 4> p;
+  alignas(64) Column cones;
+};
+
+/// Points of consecutive knots, or of their handles, in the picture.
+struct PictureLanes {
+  Vector x, y, depth;
+};
+
+class OrthographicLanes {
  public:
-  explicit StemProjection(const Camera& camera)
-      : eye_m_(camera.position_m),
-        right_(camera.right * (1 / camera.metres_per_px)),
+  explicit OrthographicLanes(const Camera& camera)
+      : right_(camera.right * (1 / camera.metres_per_px)),
         down_(camera.up * (-1 / camera.metres_per_px)),
-        forward_(camera.forward),
-        px_per_m_(1 / camera.metres_per_px),
-        center_x_(camera.center_x_px),
-        center_y_(camera.center_y_px),
-        is_perspective_(camera.projection == Projection::perspective) {}
+        forward_(camera.forward * (1 / camera.metres_per_px)),
+        x_(camera.center_x_px - espalier::dot(camera.position_m, right_)),
+        y_(camera.center_y_px - espalier::dot(camera.position_m, down_)) {}
 
-  StemPoint point(Vec3 point_m) const {
-    const Vec3 offset = point_m - eye_m_;
-    const float depth_m = dot(offset, forward_);
-    const float scale = scale_at(depth_m);
-    const float depth = is_perspective_ ? std::log(depth_m) : depth_m;
-    return {center_x_ + scale * dot(offset, right_), center_y_ + scale * dot(offset, down_),
-            depth * px_per_m_};
-  }
-
-  StemKnot knot(Vec3 point_m, float radius_m) const {
-    const float scale = scale_at(dot(point_m - eye_m_, forward_));
-    return {point(point_m), std::max(0.0f, radius_m) * scale * px_per_m_};
-  }
-
-  /// Off the axis of a perspective picture, a ball looks larger along the way to the axis: by this factor
-  /// across a cone from `a` to `b`.
-  float widening(StemPoint a, StemPoint b) const {
-    if (!is_perspective_) return 1;
-    const float dx = b.x - a.x, dy = b.y - a.y;
-    const float across = (a.x - center_x_) * dy - (a.y - center_y_) * dx;
-    const float squared = dx * dx + dy * dy;
-    return squared > 0 ? std::sqrt(1 + across * across / (squared * px_per_m_ * px_per_m_)) : 1;
+  PictureLanes points(const Vec3* from) const {
+    Vector3 v;
+    hn::LoadInterleaved3(Floats(), &from->x, v.x, v.y, v.z);
+    return {hn::Add(along(v, right_), set(x_)), hn::Add(along(v, down_), set(y_)), along(v, forward_)};
   }
 
  private:
-  float scale_at(float depth_m) const {
-    if (!is_perspective_) return 1;
-    return depth_m > 0 ? 1 / depth_m : NAN;
+  static Vector along(const Vector3& v, Vec3 direction) {
+    return dot(v, {set(direction.x), set(direction.y), set(direction.z)});
   }
-
-  Vec3 eye_m_, right_, down_, forward_;
-  float px_per_m_, center_x_, center_y_;
-  bool is_perspective_;
+  Vec3 right_, down_, forward_;
+  float x_, y_;
 };
 
-int cones_of(const StemCurve& c) {
-  const float bend = std::max(length_px(c.p0 - 2 * c.p1 + c.p2), length_px(c.p1 - 2 * c.p2 + c.p3));
-  float count = std::sqrt(6 * bend / (8 * kTolerancePx));
-  const float thickest = std::max(c.r0, c.r1);
-  if (thickest > 1) {  // the chord over the middle handle turns by at most this much
-    const float turn = 3 * bend / std::max(length_px(c.p3 - c.p0), 1e-3f);
-    count = std::max(count, thickest * std::min(turn, 3.0f) / (2 * kTolerancePx));
-  }
-  return static_cast<int>(std::clamp(std::ceil(count), 1.0f, float{kMostCones}));
+Vector length2(Vector x, Vector y) { return hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y))); }
+
+/// |a - 2b + c|.
+Vector bend(const PictureLanes& a, const PictureLanes& b, const PictureLanes& c) {
+  return length2(hn::Add(hn::Sub(a.x, hn::Add(b.x, b.x)), c.x),
+                 hn::Add(hn::Sub(a.y, hn::Add(b.y, b.y)), c.y));
 }
 
-float tilt_of(StemPoint along) {
-  const float across = along.x * along.x + along.y * along.y, depth = along.depth * along.depth;
-  return across + depth > 0 ? std::sqrt(depth / (across + depth)) : 0;
+/// StemCurve::cones, not rounded up.
+Vector cones_of(const PictureLanes& p0, const PictureLanes& p1, const PictureLanes& p2,
+                const PictureLanes& p3, Vector thickest, Vector chord) {
+  const Vector most = hn::Max(bend(p0, p1, p2), bend(p1, p2, p3));
+  const Vector for_chord = hn::Sqrt(hn::Mul(most, set(6 / (8 * kStemTolerancePx))));
+  const Vector turn = hn::Min(hn::Div(hn::Mul(set(3), most), hn::Max(chord, set(1e-3f))), set(3));
+  const Vector for_gaps = hn::Mul(hn::Mul(thickest, turn), set(1 / (2 * kStemTolerancePx)));
+  return hn::IfThenElse(hn::Gt(thickest, set(1)), hn::Max(for_chord, for_gaps), for_chord);
 }
 
-bool is_usable(const StemCurve& c) {
-  const auto is_near = [](StemPoint p) {
-    return std::fabs(p.x) < kLargestPx && std::fabs(p.y) < kLargestPx &&
-           std::fabs(p.depth) < 1e3f * kLargestPx;
+void store(Vector v, Column& column, int at) {
+  hn::StoreU(v, Floats(), &column[static_cast<std::size_t>(at)]);
+}
+
+/// The half planes of draw_cone [scanline_cone.cpp], each as the bound it sets on x.
+void set_bounds(Vector x, Vector radius, Vector end_radius, Vector ux, Vector uy, Vector axis,
+                ConeColumns& columns, int at) {
+  const Floats d;
+  const Vector slope = hn::Div(hn::Sub(end_radius, radius), axis);
+  const auto store_bound = [&](std::size_t bound, const Line& line) {
+    store(line.at_zero, columns.at_zero[bound], at);
+    store(line.by_row, columns.by_row[bound], at);
   };
-  return is_near(c.p0) && is_near(c.p1) && is_near(c.p2) && is_near(c.p3) && c.r0 < kLargestPx &&
-         c.r1 < kLargestPx && std::max(c.r0, c.r1) > 0;
+  // c·x <= e + f·y, an upper bound where c > 0
+  const auto limit = [&](Vector c, Vector e, Vector f) {
+    const Vector inverse = hn::Div(set(1), hn::CopySign(hn::Max(hn::Abs(c), set(1e-12f)), c));
+    return Limit{{hn::Add(x, hn::Mul(e, inverse)), hn::Mul(f, inverse)}, hn::Gt(inverse, hn::Zero(d))};
+  };
+  const Line none_low{set(-kFarPx), hn::Zero(d)}, none_high{set(kFarPx), hn::Zero(d)};
+  const Limit foot = limit(hn::Neg(ux), hn::Zero(d), uy), tip = limit(ux, axis, hn::Neg(uy));
+  store_bound(0, choose(foot.is_upper, tip.line, foot.line));
+  store_bound(3, choose(foot.is_upper, foot.line, tip.line));
+  const Vector leaning = hn::Mul(slope, ux), rising = hn::Mul(slope, uy);
+  const Limit left = limit(hn::Sub(hn::Neg(uy), leaning), radius, hn::Sub(rising, ux));
+  const Limit right = limit(hn::Sub(uy, leaning), radius, hn::Add(rising, ux));
+  store_bound(1, choose(left.is_upper, none_low, left.line));
+  store_bound(4, choose(left.is_upper, left.line, none_high));
+  store_bound(2, choose(right.is_upper, none_low, right.line));
+  store_bound(5, choose(right.is_upper, right.line, none_high));
 }
 
-void draw_curve(const StemCurve& curve, const StemProjection& projection, Mask& mask) {
-  if (!is_usable(curve)) return;
-  const int cones = cones_of(curve);
-  StemPoint from = curve.p0;
-  float radius = curve.r0;
-  for (int i = 1; i <= cones; ++i) {
-    const float t = static_cast<float>(i) / static_cast<float>(cones);
-    const StemPoint to = i < cones ? curve.at(t) : curve.p3;
-    const float end_radius = curve.r0 + t * (curve.r1 - curve.r0), wide = projection.widening(from, to);
-    draw_cone({from.x, from.y, wide * radius}, {to.x, to.y, wide * end_radius}, tilt_of(to - from), mask);
-    from = to;
-    radius = end_radius;
+/// Cones from (p0, r0) to (p1, r1).
+void set_cones(const PictureLanes& p0, const PictureLanes& p1, Vector r0, Vector r1, ConeColumns& columns,
+               int at) {
+  const Vector dx = hn::Sub(p1.x, p0.x), dy = hn::Sub(p1.y, p0.y), depth = hn::Sub(p1.depth, p0.depth);
+  const Vector axis = hn::Max(length2(dx, dy), set(1e-6f)), inverse = hn::Div(set(1), axis);
+  const Vector ux = hn::Mul(dx, inverse), uy = hn::Mul(dy, inverse);
+  set_bounds(p0.x, r0, r1, ux, uy, axis, columns, at);
+  const Vector reach0 = hn::Mul(r0, hn::Abs(ux)), reach1 = hn::Mul(r1, hn::Abs(ux));
+  store(p0.x, columns.x0, at);
+  store(p0.y, columns.y0, at);
+  store(p1.x, columns.x1, at);
+  store(p1.y, columns.y1, at);
+  store(r0, columns.r0, at);
+  store(r1, columns.r1, at);
+  store(hn::Div(hn::Abs(depth), hn::Max(length2(axis, depth), set(1e-6f))), columns.tilt, at);
+  store(hn::Min(hn::Sub(p0.y, reach0), hn::Sub(p1.y, reach1)), columns.top, at);
+  store(hn::Max(hn::Add(p0.y, reach0), hn::Add(p1.y, reach1)), columns.bottom, at);
+}
+
+/// Segments from knots [first + at, …) of the plant to their next knots: their curves, and as one cone each.
+void prepare(const Knots& knots, std::size_t first, int at, const OrthographicLanes& camera, float px_per_m,
+             CurveColumns& curves, ConeColumns& cones) {
+  const std::size_t k = first + static_cast<std::size_t>(at);
+  const PictureLanes p[4] = {camera.points(&knots.point_m[k]), camera.points(&knots.handle_out_m[k]),
+                             camera.points(&knots.handle_in_m[k + 1]), camera.points(&knots.point_m[k + 1])};
+  for (std::size_t i = 0; i < 4; ++i) {
+    store(p[i].x, curves.p[i][0], at);
+    store(p[i].y, curves.p[i][1], at);
+    store(p[i].depth, curves.p[i][2], at);
   }
+  const auto radius_from = [&](std::size_t knot) {
+    return hn::Mul(hn::Max(hn::LoadU(Floats(), &knots.radius_m[knot]), set(0)), set(px_per_m));
+  };
+  const Vector r0 = radius_from(k), r1 = radius_from(k + 1);
+  set_cones(p[0], p[3], r0, r1, cones, at);
+  const Vector chord = length2(hn::Sub(p[3].x, p[0].x), hn::Sub(p[3].y, p[0].y));
+  store(cones_of(p[0], p[1], p[2], p[3], hn::Max(r0, r1), chord), curves.cones, at);
+}
+
+/// The points of curve i at t.
+PictureLanes on_curve(const CurveColumns& curves, std::size_t i, Vector t) {
+  const Vector u = hn::Sub(set(1), t), uu = hn::Mul(u, u), tt = hn::Mul(t, t);
+  const Vector weight[4] = {hn::Mul(uu, u), hn::Mul(set(3), hn::Mul(uu, t)), hn::Mul(set(3), hn::Mul(u, tt)),
+                            hn::Mul(tt, t)};
+  const auto coordinate = [&](std::size_t c) {
+    Vector sum = hn::Mul(weight[0], set(curves.p[0][c][i]));
+    for (std::size_t j = 1; j < 4; ++j) sum = hn::Add(sum, hn::Mul(weight[j], set(curves.p[j][c][i])));
+    return sum;
+  };
+  return {coordinate(0), coordinate(1), coordinate(2)};
+}
+
+void draw_rows(const ConeColumns& columns, std::size_t i, const PixelRun& rows, Mask& mask) {
+  const Floats d;
+  const hn::RebindToSigned<Floats> di;
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const auto bound = [&](std::size_t b, Vector y) {
+    return hn::Add(set(columns.at_zero[b][i]), hn::Mul(set(columns.by_row[b][i]), y));
+  };
+  const Vector width = set(static_cast<float>(mask.width_px())), zero = hn::Zero(d);
+  HWY_ALIGN std::int32_t begins[kMostLanes], ends[kMostLanes];
+  for (int row = rows.begin; row < rows.end; row += lanes) {
+    const Vector y = hn::Add(set(static_cast<float>(row) + 0.5f - columns.y0[i]), hn::Iota(d, 0.0f));
+    const Vector low = hn::Max(hn::Max(bound(0, y), bound(1, y)), bound(2, y));
+    const Vector high = hn::Min(hn::Min(bound(3, y), bound(4, y)), bound(5, y));
+    const Vector first = hn::Ceil(hn::Min(hn::Max(hn::Sub(low, set(0.5f)), zero), width));
+    const Vector last = hn::Floor(hn::Max(hn::Min(hn::Add(high, set(0.5f)), width), zero));
+    hn::Store(hn::ConvertTo(di, first), di, begins);
+    hn::Store(hn::ConvertTo(di, last), di, ends);
+    const int count = std::min(lanes, rows.end - row);
+    for (int j = 0; j < count; ++j)
+      if (begins[j] < ends[j]) set_span(mask.row(row + j).data(), begins[j], ends[j]);
+  }
+}
+
+void draw_cone_at(const ConeColumns& cones, std::size_t i, Mask& mask) {
+  const PixelRun rows = centres_between(cones.top[i], cones.bottom[i], mask.height_px());
+  if (rows.begin < rows.end) draw_rows(cones, i, rows, mask);
+  if (std::max(cones.r0[i], cones.r1[i]) * cones.tilt[i] > kThinnestEllipsePx)
+    draw_cone_ends({cones.x0[i], cones.y0[i], cones.r0[i]}, {cones.x1[i], cones.y1[i], cones.r1[i]},
+                   cones.tilt[i], mask);
+}
+
+/// A bent segment, as `count` cones, a vector of cones at a time.
+void draw_bent(const CurveColumns& curves, const ConeColumns& chords, std::size_t i, int count,
+               ConeColumns& scratch, Mask& mask) {
+  const int lanes = static_cast<int>(hn::Lanes(Floats()));
+  const Vector step = set(1 / static_cast<float>(count)), r0 = set(chords.r0[i]), r1 = set(chords.r1[i]);
+  for (int first = 0; first < count; first += lanes) {
+    const Vector index = hn::Iota(Floats(), static_cast<float>(first));
+    const Vector from = hn::Mul(index, step), to = hn::Mul(hn::Add(index, set(1)), step);
+    const auto radius = [&](Vector t) { return hn::Add(r0, hn::Mul(t, hn::Sub(r1, r0))); };
+    set_cones(on_curve(curves, i, from), on_curve(curves, i, to), radius(from), radius(to), scratch, 0);
+    for (int j = 0; j < std::min(lanes, count - first); ++j)
+      draw_cone_at(scratch, static_cast<std::size_t>(j), mask);
+  }
+}
+
+/// The stems' segments in order, prepared in batches. A few at the end of the arrays are left to StemPen.
+void draw_orthographic(const Plant& plant, const Camera& camera, Mask& mask) {
+  const Knots& knots = plant.knots;
+  const OrthographicLanes lanes_of_camera(camera);
+  const StemPen pen(plant, camera);
+  const std::size_t lanes = hn::Lanes(Floats());
+  CurveColumns curves;
+  ConeColumns chords, pieces;
+  std::size_t first = 0, prepared = 0;  // the columns hold knots [first, prepared)
+  for (std::size_t stem = 0; stem < plant.stems.size(); ++stem)
+    for (std::size_t k = plant.stems.first_knot[stem]; k + 1 < plant.stems.first_knot[stem + 1]; ++k) {
+      if (k >= prepared)
+        for (first = prepared = k; prepared < first + kBatch && prepared + lanes < knots.size();
+             prepared += lanes)
+          prepare(knots, first, static_cast<int>(prepared - first), lanes_of_camera, 1 / camera.metres_per_px,
+                  curves, chords);
+      if (k >= prepared) {
+        pen.draw_segment(k, mask);
+        continue;
+      }
+      const float cones = curves.cones[k - first];
+      if (cones <= 1)
+        draw_cone_at(chords, k - first, mask);
+      else if (cones < kFarPx)
+        draw_bent(curves, chords, k - first, cone_count(cones), pieces, mask);
+    }
 }
 
 }  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace espalier
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace espalier {
+
+HWY_EXPORT(draw_orthographic);
 
 void draw_stems(const Plant& plant, const Camera& camera, Mask& mask) {
-  const StemProjection projection(camera);
-  const Knots& knots = plant.knots;
-  for (std::size_t stem = 0; stem < plant.stems.size(); ++stem) {
-    const std::size_t begin = plant.stems.first_knot[stem], end = plant.stems.first_knot[stem + 1];
-    if (begin == end) continue;
-    StemKnot from = projection.knot(knots.point_m[begin], knots.radius_m[begin]);
-    for (std::size_t k = begin + 1; k < end; ++k) {
-      const StemKnot to = projection.knot(knots.point_m[k], knots.radius_m[k]);
-      draw_curve({from.point, projection.point(knots.handle_out_m[k - 1]),
-                  projection.point(knots.handle_in_m[k]), to.point, from.radius_px, to.radius_px},
-                 projection, mask);
-      from = to;
-    }
+  if (plant.stems.size() == 0) return;
+  if (camera.projection == Projection::orthographic) {
+    HWY_DYNAMIC_DISPATCH(draw_orthographic)(plant, camera, mask);
+    return;
   }
+  const StemPen pen(plant, camera);
+  for (std::size_t stem = 0; stem < plant.stems.size(); ++stem)
+    for (std::size_t k = plant.stems.first_knot[stem]; k + 1 < plant.stems.first_knot[stem + 1]; ++k)
+      pen.draw_segment(k, mask);
 }
 
 }  // namespace espalier
+#endif

@@ -31,7 +31,7 @@ float leaf_count(const GrowingStem& stem, const WeberPennParameters& p) {
 ChildPlacer::ChildPlacer(const GrowingStem& stem, Bears bears, const WeberPennParameters& parameters)
     : p_(parameters),
       bears_(bears),
-      stem_(stem),
+      stem_(&stem),
       count_(bears == Bears::leaves ? leaf_count(stem, parameters) : child_stem_count(stem, parameters)),
       child_level_(level_index(stem.level + 1)),
       distribution_(parameters.branch_dist[child_level_]),
@@ -39,40 +39,43 @@ ChildPlacer::ChildPlacer(const GrowingStem& stem, Bears bears, const WeberPennPa
 
 void ChildPlacer::begin(const GrowingStem& stem, const Segment& segment) {
   const int segments = segment_count(p_, stem.level);
-  stem_ = stem;
-  segment_ = segment;
+  stem_ = &stem;
+  segment_ = &segment;
   last_segment_ = segment.z_end >= 1;
   const float grown_part = 1 - static_cast<float>(stem.first_segment) / static_cast<float>(segments);
   const float share = bears_ == Bears::leaves ? grown_part : stem.child_share;
   rate_ = std::max(0.f, count_) * share / static_cast<float>(segments);
   before_ = reached_;
+  inverse_rate_ = 1 / rate_;
   reached_ += rate_;
 }
 
 bool ChildPlacer::next(ChildSite& site) {
   if (count_ < 0) return next_in_fan(site);
-  return distribution_ > 1 ? next_in_whorl(site) : next_along(site);
-}
-
-bool ChildPlacer::next_along(ChildSite& site) {
-  constexpr float kRounding = 1e-4f;  // of a running count of up to some hundreds in float
-  while (rate_ > 0) {
-    const float missing = static_cast<float>(placed_ + 1) - reached_;
-    const bool relaxed_last = p_.relaxed_counts > 0 && last_segment_ && missing < 1;
-    if (missing > kRounding && !relaxed_last) return false;
-    site.index = placed_;
-    site.grown_fraction = missing > kRounding ? 1 - missing : 1;
-    const float shift = placed_ % 2 == 1 ? distribution_ : 0;  // 1: opposite the one before it
-    const float t = (static_cast<float>(placed_) - shift - before_) / rate_;
-    ++placed_;
-    const float roll_deg = next_rotation_deg();
-    if (site.grown_fraction > 0 && site_at(std::clamp(t, 0.f, 1.f), roll_deg, site)) return true;
-  }
+  for (ChildSlot slot; next_slot(slot);)
+    if (site_at(slot, site)) return true;
   return false;
 }
 
+bool ChildPlacer::next_slot(ChildSlot& slot) {
+  return distribution_ > 1 ? next_in_whorl(slot) : next_along(slot);
+}
+
+bool ChildPlacer::next_along(ChildSlot& slot) {
+  constexpr float kRounding = 1e-4f;  // of a running count of up to some hundreds in float
+  if (!(rate_ > 0)) return false;
+  const float missing = static_cast<float>(placed_ + 1) - reached_;
+  const bool relaxed_last = p_.relaxed_counts > 0 && last_segment_ && missing < 1;
+  if (missing > kRounding && !relaxed_last) return false;
+  const float shift = placed_ % 2 == 1 ? distribution_ : 0;  // 1: opposite the one before it
+  const float t = (static_cast<float>(placed_) - shift - before_) * inverse_rate_;
+  slot = {placed_, std::clamp(t, 0.f, 1.f), next_rotation_deg(), missing > kRounding ? 1 - missing : 1};
+  ++placed_;
+  return true;
+}
+
 /// Whorls of branch_dist + 1 children, the rounding diffused from whorl to whorl.
-bool ChildPlacer::next_in_whorl(ChildSite& site) {
+bool ChildPlacer::next_in_whorl(ChildSlot& slot) {
   const float size = distribution_ + 1;
   while (rate_ > 0) {
     const float whorl_center = (static_cast<float>(whorl_) + 0.5f) * size;
@@ -84,13 +87,19 @@ bool ChildPlacer::next_in_whorl(ChildSite& site) {
       rotation_deg_ += p_.rotate[child_level_];
       continue;
     }
-    site.index = placed_++;
-    site.grown_fraction = 1;
-    const float jitter = draw_signed(stem_.key, Draw::child_rotation, site.index) * p_.rotate_v[child_level_];
-    const float roll_deg = rotation_deg_ + 360.f * static_cast<float>(in_whorl_++) / members + jitter;
-    if (site_at(std::clamp((whorl_center - before_) / rate_, 0.f, 1.f), roll_deg, site)) return true;
+    const float t = (whorl_center - before_) * inverse_rate_;
+    const float roll_deg =
+        rotation_deg_ + 360.f * static_cast<float>(in_whorl_++) / members + jitter_deg(placed_);
+    slot = {placed_++, std::clamp(t, 0.f, 1.f), roll_deg, 1};
+    return true;
   }
   return false;
+}
+
+/// Of the rotation about the parent.
+float ChildPlacer::jitter_deg(int index) const {
+  const float most = p_.rotate_v[child_level_];
+  return most == 0 ? 0 : draw_signed(stem_->key, Draw::child_rotation, index) * most;
 }
 
 /// |count| children from the tip, spread over the angle `rotate` in the plane of the stem.
@@ -100,29 +109,28 @@ bool ChildPlacer::next_in_fan(ChildSite& site) {
   site.index = placed_;
   site.grown_fraction = std::min(1.f, -count_ - static_cast<float>(placed_));
   const float across = members > 1 ? static_cast<float>(placed_) / static_cast<float>(members - 1) - 0.5f : 0;
-  const float jitter = draw_signed(stem_.key, Draw::child_rotation, placed_) * p_.rotate_v[child_level_];
-  site.offset_m = stem_.length_m;
-  site.parent_radius_m = stem_radius_m(stem_, 1, p_);
-  site.turtle = segment_.end;
-  site.outward = segment_.end.forward;
-  site.turtle.turn_right(p_.rotate[child_level_] * across + jitter);
-  site.turtle.pitch_down(down_angle_deg(stem_.length_m));
+  site.offset_m = stem_->length_m;
+  site.parent_radius_m = stem_radius_m(*stem_, 1, p_);
+  site.turtle = segment_->end;
+  site.outward = segment_->end.forward;
+  site.turtle.turn_right(p_.rotate[child_level_] * across + jitter_deg(placed_));
+  site.turtle.pitch_down(down_angle_deg(stem_->length_m, placed_));
   ++placed_;
   return true;
 }
 
-/// False below the stem's base, where nothing grows.
-bool ChildPlacer::site_at(float t, float roll_deg, ChildSite& site) {
-  const float z = segment_.z_start + t * (segment_.z_end - segment_.z_start);
-  site.offset_m = z * stem_.length_m;
-  if (site.offset_m < p_.base_size[level_index(stem_.level)] * stem_.length_m) return false;
-  site.parent_radius_m = stem_radius_m(stem_, z, p_);
-  site.turtle = frame_at(t);
-  site.turtle.roll_right(roll_deg);
-  Turtle normal = site.turtle;
-  normal.pitch_down(90);
-  site.outward = normal.forward;
-  site.turtle.pitch_down(down_angle_deg(site.offset_m));
+/// False below the stem's base and where nothing has grown yet.
+bool ChildPlacer::site_at(const ChildSlot& slot, ChildSite& site) const {
+  const float z = segment_->z_start + slot.t * (segment_->z_end - segment_->z_start);
+  if (z < p_.base_size[level_index(stem_->level)] || !(slot.grown_fraction > 0)) return false;
+  site.index = slot.index;
+  site.grown_fraction = slot.grown_fraction;
+  site.offset_m = z * stem_->length_m;
+  site.parent_radius_m = stem_radius_m(*stem_, z, p_);
+  site.turtle = frame_at(slot.t);
+  site.turtle.roll_right(slot.roll_deg);
+  site.outward = cross(site.turtle.forward, site.turtle.right);
+  site.turtle.pitch_down(down_angle_deg(site.offset_m, slot.index));
   return true;
 }
 
@@ -130,10 +138,11 @@ bool ChildPlacer::site_at(float t, float roll_deg, ChildSite& site) {
 /// along a helix the turn of the tangent.
 Turtle ChildPlacer::frame_at(float t) const {
   Turtle frame;
-  frame.position_m = segment_point(segment_, t);
-  frame.forward = segment_tangent(segment_, t);
-  const Vec3 right = segment_.helical ? cross(segment_tangent(segment_, t + 0.05f), frame.forward)
-                                      : cross(cross(segment_.end.forward, segment_.end.right), frame.forward);
+  frame.position_m = segment_point(*segment_, t);
+  frame.forward = segment_tangent(*segment_, t);
+  const Vec3 right = segment_->helical
+                         ? cross(segment_tangent(*segment_, t + 0.05f), frame.forward)
+                         : cross(cross(segment_->end.forward, segment_->end.right), frame.forward);
   frame.right = normalized(right, any_perpendicular(frame.forward));
   return frame;
 }
@@ -141,18 +150,19 @@ Turtle ChildPlacer::frame_at(float t) const {
 /// rotate ≥ 0: further round than the one before; < 0: alternate sides, that far from the downward direction.
 float ChildPlacer::next_rotation_deg() {
   const float rotate = p_.rotate[child_level_];
-  const float jitter = draw_signed(stem_.key, Draw::child_rotation, placed_) * p_.rotate_v[child_level_];
-  if (rotate >= 0) return rotation_deg_ += rotate + jitter;
-  return (placed_ % 2 == 0 ? 1.f : -1.f) * (180 + rotate + jitter);
+  if (rotate < 0) return (placed_ % 2 == 0 ? 1.f : -1.f) * (180 + rotate + jitter_deg(placed_));
+  rotation_deg_ += rotate + jitter_deg(placed_);
+  if (rotation_deg_ > 360) rotation_deg_ -= 360;
+  return rotation_deg_;
 }
 
 /// down_angle_v < 0: the angle changes along the parent by the conical shape, then ±10 % [WP §4.3].
-float ChildPlacer::down_angle_deg(float offset_m) const {
+float ChildPlacer::down_angle_deg(float offset_m, int index) const {
   const float angle = p_.down_angle[child_level_], variation = p_.down_angle_v[child_level_];
-  const float jitter = draw_signed(stem_.key, Draw::child_down_angle, placed_);
+  const float jitter = draw_signed(stem_->key, Draw::child_down_angle, index);
   if (variation >= 0) return angle + jitter * variation;
-  const float bare_m = stem_.length_m * (1 - p_.base_size[level_index(stem_.level)]);
-  const float ratio = (stem_.length_m - offset_m) / bare_m;
+  const float bare_m = stem_->length_m * (1 - p_.base_size[level_index(stem_->level)]);
+  const float ratio = (stem_->length_m - offset_m) / bare_m;
   const float shaped = angle + variation * (1 - 2 * shape_ratio(0, ratio, p_));
   return shaped * (1 + 0.1f * jitter);
 }

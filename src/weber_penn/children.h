@@ -5,6 +5,14 @@
 
 namespace espalier {
 
+/// Where a child sits, before its turtle is worked out.
+struct ChildSlot {
+  int index = 0;             ///< along the parent, from its base
+  float t = 0;               ///< along the segment, in [0, 1]
+  float roll_deg = 0;        ///< about the parent
+  float grown_fraction = 1;  ///< under 1 for the last child of a relaxed count
+};
+
 /// One place for a child on its parent's axis.
 struct ChildSite {
   int index = 0;              ///< along the parent, from its base
@@ -30,29 +38,34 @@ class ChildPlacer {
   /// Counts are those above, for the whole stem if it were no clone and did not split.
   ChildPlacer(const GrowingStem& stem, Bears bears, const WeberPennParameters& parameters);
 
-  /// Starts a segment; then next() yields its children until it returns false.
+  /// Starts a segment, which must outlive its children, as must the stem; then next() yields them until it
+  /// returns false.
   void begin(const GrowingStem& stem, const Segment& segment);
   bool next(ChildSite& site);
 
+  /// The same without the turtle, except in fans; slots below the stem's base bear nothing.
+  bool next_slot(ChildSlot& slot);
+
  private:
-  bool next_along(ChildSite& site);
-  bool next_in_whorl(ChildSite& site);
+  bool next_along(ChildSlot& slot);
+  bool next_in_whorl(ChildSlot& slot);
   bool next_in_fan(ChildSite& site);
-  bool site_at(float t, float roll_deg, ChildSite& site);
+  bool site_at(const ChildSlot& slot, ChildSite& site) const;
   float next_rotation_deg();
-  float down_angle_deg(float offset_m) const;
+  float jitter_deg(int index) const;
+  float down_angle_deg(float offset_m, int index) const;
   Turtle frame_at(float t) const;
 
   const WeberPennParameters& p_;
   Bears bears_;
-  GrowingStem stem_;
-  Segment segment_;
+  const GrowingStem* stem_;
+  const Segment* segment_ = nullptr;
   float count_;
-  int child_level_;     ///< index of the child's level values
-  float distribution_;  ///< branch_dist
-  float reached_ = 0, before_ = 0,
-        rate_ = 0;  ///< running count after and before this segment, and per segment
-  int placed_ = 0;  ///< children so far
+  int child_level_;                    ///< index of the child's level values
+  float distribution_;                 ///< branch_dist
+  float reached_ = 0, before_ = 0;     ///< running count after and before this segment
+  float rate_ = 0, inverse_rate_ = 0;  ///< children per segment
+  int placed_ = 0;                     ///< children so far
   int whorl_ = 0, in_whorl_ = 0;
   float rotation_deg_;
   bool last_segment_ = false;

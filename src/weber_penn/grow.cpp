@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "weber_penn/children.h"
+#include "weber_penn/leaf_batch.h"
 #include "weber_penn/leaf_placement.h"
 #include "weber_penn/pruning.h"
 #include "weber_penn/shape_ratio.h"
@@ -25,7 +26,7 @@ constexpr float kShortestStem_m = 1e-5f;
 class Growth {
  public:
   Growth(const WeberPennParameters& p, const GrowthSettings& settings, Plant& plant)
-      : p_(p), settings_(settings), plant_(plant) {}
+      : p_(p), settings_(settings), plant_(plant), batch_(p, plant.leaves) {}
 
   GrowthResult run(Seed seed);
 
@@ -42,6 +43,7 @@ class Growth {
   const WeberPennParameters& p_;
   const GrowthSettings& settings_;
   Plant& plant_;
+  LeafBatch batch_;
   std::vector<GrowingStem> level_, next_level_;  ///< queues
 };
 
@@ -62,6 +64,10 @@ class Growth::StemGrowth : public StemVisitor {
     append_knots(stem, segment, growth_.p_, growth_.plant_.knots);
     if (!children_) return true;
     children_->begin(stem, segment);
+    if (bears_leaves_ && LeafBatch::takes(stem, growth_.p_)) {
+      growth_.batch_.add(stem, segment, *children_);
+      return true;
+    }
     for (ChildSite site; children_->next(site);) {
       if (bears_leaves_)
         place_leaf(stem, site, growth_.p_, growth_.plant_.leaves);
@@ -153,11 +159,15 @@ GrowthResult Growth::run(Seed seed) {
     for (std::size_t index = 0; index < level_.size(); ++index) {
       const GrowingStem stem = level_[index];  // a copy: clones are queued while it grows
       grow_stem(stem);
-      if (const double factor = over_budget_factor(); factor > 1) return {false, factor};
+      if (const double factor = over_budget_factor(); factor > 1) {
+        batch_.flush();
+        return {false, factor};
+      }
     }
     std::swap(level_, next_level_);
     next_level_.clear();
   }
+  batch_.flush();
   return {};
 }
 

@@ -9,4 +9,8 @@ namespace espalier {
 void place_leaf(const GrowingStem& stem, const ChildSite& site, const WeberPennParameters& parameters,
                 Leaves& leaves);
 
+/// Appends kind, length and width of leaf `index` of `stem`.
+void append_leaf_size(const GrowingStem& stem, int index, float grown_fraction,
+                      const WeberPennParameters& parameters, Leaves& leaves);
+
 }  // namespace espalier

@@ -1,0 +1,29 @@
+// One segment of a stem in a picture: its curve, projected and cut into cones. Pixels.
+#pragma once
+#include "image/mask.h"
+#include "plant/plant.h"
+#include "render/camera.h"
+
+namespace espalier {
+
+constexpr float kStemTolerancePx = 0.125f;  ///< of silhouettes of curves
+constexpr float kLargestStemPx = 1e6f;      ///< beyond it, float pixels are too coarse to draw
+
+/// A whole number of cones, at least 1 and at most 64.
+int cone_count(float cones);
+
+/// Draws segments of a plant's stems, in any projection.
+class StemPen {
+ public:
+  /// Both must outlive the pen.
+  StemPen(const Plant& plant, const Camera& camera) : knots_(plant.knots), camera_(camera) {}
+
+  /// The segment from knot k to knot k + 1.
+  void draw_segment(std::size_t k, Mask& mask) const;
+
+ private:
+  const Knots& knots_;
+  const Camera& camera_;
+};
+
+}  // namespace espalier
