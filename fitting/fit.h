@@ -23,7 +23,7 @@ struct FitOptions {
   int threads = 0;               ///< 0: one for each processor
   bool resume = false;           ///< go on with the run in the directory
   const Model* model = nullptr;  ///< instead of the record's model by name; not owned
-  RendererFactory make_renderer = make_embree_renderer;
+  RendererFactory make_renderer = make_scanline_renderer;
   std::function<bool()> stop_requested = [] { return false; };  ///< asked before each batch
   std::function<void(const FitProgress&)> on_progress = [](const FitProgress&) {};
 };

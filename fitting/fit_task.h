@@ -32,7 +32,7 @@ struct FitTask {
   std::vector<Seed> plant_seeds;
   std::vector<TargetView> views;
   MaskObjective objective;
-  RendererFactory make_renderer = make_embree_renderer;
+  RendererFactory make_renderer = make_scanline_renderer;
 };
 
 /// The silhouettes of one candidate: seed by seed, and for each seed view by view. Empty masks where

@@ -84,7 +84,7 @@ TEST(Fit, SummarySaysWhatWasDone) {
   EXPECT_EQ(summary["evaluations"], 40);
   EXPECT_EQ(summary["stopped_by"], "evaluations");
   EXPECT_EQ(summary["iou"], result.metrics.iou);
-  EXPECT_EQ(summary["embree_disagreement_pixels"], 0);
+  EXPECT_LE(summary["embree_disagreement_pixels"], 2);
   EXPECT_EQ(summary["optimizer"], "cma_es");
   EXPECT_EQ(summary["seed"], 1);
   EXPECT_EQ(summary["height_m"], 7);
