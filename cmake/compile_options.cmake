@@ -1,8 +1,10 @@
 # Options shared by every target. No -march here: one binary serves all machines, and objects that use
 # Eigen must all be built with the same vector flags (docs/architecture.md).
 add_library(espalier_options INTERFACE)
+# Neither errno nor traps of floating point are looked at: square roots are then one instruction. Same bits.
 # Every field of our structs has a default: naming only some of them is the style, not an oversight.
-target_compile_options(espalier_options INTERFACE -Wall -Wextra -Wno-missing-field-initializers -ffp-contract=off)
+target_compile_options(espalier_options INTERFACE -Wall -Wextra -Wno-missing-field-initializers -ffp-contract=off
+                       -fno-math-errno -fno-trapping-math)
 if(ESPALIER_WERROR)
   target_compile_options(espalier_options INTERFACE -Werror)
 endif()

@@ -18,6 +18,7 @@ void add_compare_command(CLI::App& app);
 void add_mask_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_mesh_command(CLI::App& app);
+void add_bench_command(CLI::App& app);
 void add_species_command(CLI::App& app);
 void add_params_command(CLI::App& app);
 void add_completion_command(CLI::App& app);

@@ -2,6 +2,7 @@
 // Metres, z up, base of the first trunk near the origin. A stem is a cubic Bézier spline with a
 // radius at each knot; how finely it is flattened is chosen by whoever draws or meshes it.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -50,6 +51,9 @@ struct Plant {
 
   void clear();  ///< empties all arrays, keeps their memory
 };
+
+/// Memory that a plant keeps for the next one, in bytes.
+std::size_t memory_bytes(const Plant& plant);
 
 struct Bounds {
   Vec3 lower, upper;

@@ -175,7 +175,20 @@ void LeafBatch::note(const GrowingStem& stem, const ChildSlot& slot, float z) {
   notes_.roll_deg[i] = slot.roll_deg;
   notes_.jitter[i] = draw_signed(stem.key, Draw::child_down_angle, slot.index);
   notes_.segment_index[i] = notes_.segments - 1;
-  append_leaf_size(stem, slot.index, slot.grown_fraction, p_, leaves_);
+  notes_.growth[i] = leaf_growth(stem, slot.grown_fraction, p_);
+  notes_.kind[i] = leaf_kind(stem, slot.index, p_);
+}
+
+void LeafBatch::append_sizes() {
+  const std::size_t before = leaves_.size(), count = static_cast<std::size_t>(notes_.count);
+  leaves_.kind.insert(leaves_.kind.end(), notes_.kind.begin(), notes_.kind.begin() + notes_.count);
+  leaves_.length_m.resize(before + count);
+  leaves_.width_m.resize(before + count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool is_leaf = notes_.kind[i] == LeafKind::leaf;
+    leaves_.length_m[before + i] = (is_leaf ? p_.leaf_scale : p_.blossom_scale) * notes_.growth[i];
+    leaves_.width_m[before + i] = leaves_.length_m[before + i] * (is_leaf ? p_.leaf_scale_x : 1);
+  }
 }
 
 void LeafBatch::flush() {
@@ -186,6 +199,7 @@ void LeafBatch::flush() {
   HWY_DYNAMIC_DISPATCH(place_all)
   (notes_, p_, &leaves_.position_m[before], &leaves_.axis[before], &leaves_.side[before]);
   for (std::vector<Vec3>* column : {&leaves_.position_m, &leaves_.axis, &leaves_.side}) column->resize(after);
+  append_sizes();
   notes_.count = notes_.segments = 0;
 }
 

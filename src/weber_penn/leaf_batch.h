@@ -25,7 +25,9 @@ struct LeafNotes {
   int count = 0, segments = 0;
   std::array<LeafSegment, kMost> segment;
   alignas(64) std::array<float, kMost> t{}, z{}, roll_deg{},
-      jitter{};  ///< t along the segment, z along the stem
+      jitter{};                                   ///< t along the segment, z along the stem
+  alignas(64) std::array<float, kMost> growth{};  ///< of its size, relative to leaf_scale
+  std::array<LeafKind, kMost> kind{};
   alignas(64) std::array<std::int32_t,
                          kMost> segment_index{};  ///< also beyond count, where vectors end, a row there is
 };
@@ -41,11 +43,14 @@ class LeafBatch {
   /// Notes all leaves of a segment; `placer` has begun it.
   void add(const GrowingStem& stem, const Segment& segment, ChildPlacer& placer);
 
-  /// Places what is noted: `leaves` then hold one position, axis and side for each length.
+  /// Appends what is noted to `leaves`.
   void flush();
+
+  int noted() const { return notes_.count; }
 
  private:
   void note(const GrowingStem& stem, const ChildSlot& slot, float z);
+  void append_sizes();
 
   const WeberPennParameters& p_;
   Leaves& leaves_;

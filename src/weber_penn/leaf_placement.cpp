@@ -18,15 +18,14 @@ void bend_outwards(Turtle& leaf, float leaf_bend) {
 
 }  // namespace
 
-void append_leaf_size(const GrowingStem& stem, int index, float grown_fraction, const WeberPennParameters& p,
-                      Leaves& leaves) {
+LeafKind leaf_kind(const GrowingStem& stem, int index, const WeberPennParameters& p) {
   const bool is_blossom =
       p.blossom_rate > 0 && draw_unit(child_key(stem.key, index), Draw::blossom) < p.blossom_rate;
-  const float growth = grown_fraction * stem.tree.scale_m / p.g_scale;
-  const float length_m = (is_blossom ? p.blossom_scale : p.leaf_scale) * growth;
-  leaves.length_m.push_back(length_m);
-  leaves.width_m.push_back(is_blossom ? length_m : length_m * p.leaf_scale_x);
-  leaves.kind.push_back(is_blossom ? LeafKind::blossom : LeafKind::leaf);
+  return is_blossom ? LeafKind::blossom : LeafKind::leaf;
+}
+
+float leaf_growth(const GrowingStem& stem, float grown_fraction, const WeberPennParameters& p) {
+  return grown_fraction * stem.tree.scale_m / p.g_scale;
 }
 
 void place_leaf(const GrowingStem& stem, const ChildSite& site, const WeberPennParameters& p,
@@ -37,7 +36,12 @@ void place_leaf(const GrowingStem& stem, const ChildSite& site, const WeberPennP
   leaves.position_m.push_back(leaf.position_m);
   leaves.axis.push_back(leaf.forward);
   leaves.side.push_back(leaf.right);
-  append_leaf_size(stem, site.index, site.grown_fraction, p, leaves);
+  const bool is_leaf = leaf_kind(stem, site.index, p) == LeafKind::leaf;
+  const float length_m =
+      (is_leaf ? p.leaf_scale : p.blossom_scale) * leaf_growth(stem, site.grown_fraction, p);
+  leaves.length_m.push_back(length_m);
+  leaves.width_m.push_back(length_m * (is_leaf ? p.leaf_scale_x : 1));
+  leaves.kind.push_back(is_leaf ? LeafKind::leaf : LeafKind::blossom);
 }
 
 }  // namespace espalier

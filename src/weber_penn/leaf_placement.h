@@ -9,8 +9,10 @@ namespace espalier {
 void place_leaf(const GrowingStem& stem, const ChildSite& site, const WeberPennParameters& parameters,
                 Leaves& leaves);
 
-/// Appends kind, length and width of leaf `index` of `stem`.
-void append_leaf_size(const GrowingStem& stem, int index, float grown_fraction,
-                      const WeberPennParameters& parameters, Leaves& leaves);
+/// Whether child `index` of `stem` is a leaf or a blossom.
+LeafKind leaf_kind(const GrowingStem& stem, int index, const WeberPennParameters& parameters);
+
+/// Factor on leaf_scale and blossom_scale.
+float leaf_growth(const GrowingStem& stem, float grown_fraction, const WeberPennParameters& parameters);
 
 }  // namespace espalier

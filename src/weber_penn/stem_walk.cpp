@@ -9,10 +9,14 @@ namespace espalier {
 
 namespace {
 
-float curve_angle_deg(const GrowingStem& stem, int at, const WeberPennParameters& p) {
+/// At segment end `at`: up to `most` over the whole stem. No number is drawn where there is nothing to vary.
+float jitter_deg(const GrowingStem& stem, Draw purpose, int at, float most, int segments) {
+  return most == 0 ? 0 : draw_signed(stem.key, purpose, at) * most / segments;
+}
+
+float curve_angle_deg(const GrowingStem& stem, int at, int segments, const WeberPennParameters& p) {
   const int level = level_index(stem.level);
-  const int segments = segment_count(p, stem.level);
-  const float jitter = draw_signed(stem.key, Draw::curve, at) * p.curve_v[level] / segments;
+  const float jitter = jitter_deg(stem, Draw::curve, at, p.curve_v[level], segments);
   if (p.curve_back[level] == 0) return p.curve[level] / segments + jitter;
   const bool first_half = 2 * at <= segments;
   return (first_half ? p.curve[level] : p.curve_back[level]) * 2 / segments + jitter;
@@ -21,14 +25,15 @@ float curve_angle_deg(const GrowingStem& stem, int at, const WeberPennParameters
 /// Turns at segment end `at` where the stem does not split.
 void turn(GrowingStem& stem, int at, const WeberPennParameters& p) {
   const int segments = segment_count(p, stem.level);
-  const float bend_deg = draw_signed(stem.key, Draw::bend, at) * p.bend_v[level_index(stem.level)] / segments;
-  stem.turtle.turn_left(bend_deg);
-  stem.turtle.pitch_down(curve_angle_deg(stem, at, p) - stem.split_correction_deg);
+  const float bend_deg = jitter_deg(stem, Draw::bend, at, p.bend_v[level_index(stem.level)], segments);
+  if (bend_deg != 0) stem.turtle.turn_left(bend_deg);
+  stem.turtle.pitch_down(curve_angle_deg(stem, at, segments, p) - stem.split_correction_deg);
 }
 
 /// Rotates the heading h by 10·|h × T| degrees about h × T; z pulls only at level 2 and above [CH §3.2.1].
 void apply_tropism(GrowingStem& stem, const WeberPennParameters& p) {
   const Vec3 tropism{p.tropism_x, p.tropism_y, stem.level >= 2 ? p.tropism_z : 0};
+  if (tropism == Vec3{}) return;
   const Vec3 axis = cross(stem.turtle.forward, tropism);
   const float strength = length(axis);
   if (strength > 1e-9f) stem.turtle.rotate_about(axis * (1 / strength), 10 * strength);

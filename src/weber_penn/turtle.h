@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/sine_cosine.h"
 #include "core/vec3.h"
 
 namespace espalier {
@@ -12,9 +13,8 @@ inline float radians(float angle_deg) { return angle_deg * (std::numbers::pi_v<f
 inline float degrees(float angle_rad) { return angle_rad * (180 / std::numbers::pi_v<float>); }
 
 /// `v` turned about the unit vector `axis` (Rodrigues' formula, right-handed).
-inline Vec3 rotated(Vec3 v, Vec3 axis, float angle_rad) {
-  const float c = std::cos(angle_rad), s = std::sin(angle_rad);
-  return v * c + cross(axis, v) * s + axis * (dot(axis, v) * (1 - c));
+inline Vec3 rotated(Vec3 v, Vec3 axis, SineAndCosine turn) {
+  return v * turn.cosine + cross(axis, v) * turn.sine + axis * (dot(axis, v) * (1 - turn.cosine));
 }
 
 /// Angle of a direction from straight up, in degrees.
@@ -29,15 +29,27 @@ struct Turtle {
   void move(float distance_m) { position_m += forward * distance_m; }
 
   /// Turns the heading to the right, about the frame's up axis.
-  void turn_right(float angle_deg) { rotate_about(normalized(cross(forward, right)), angle_deg); }
+  void turn_right(float angle_deg) {
+    const auto [sine, cosine] = sine_cosine_deg(angle_deg);
+    const Vec3 ahead = forward;
+    forward = normalized(ahead * cosine + right * sine);
+    right = normalized(right * cosine - ahead * sine);
+  }
   void turn_left(float angle_deg) { turn_right(-angle_deg); }
-  void pitch_down(float angle_deg) { forward = normalized(rotated(forward, right, radians(-angle_deg))); }
-  void roll_right(float angle_deg) { right = normalized(rotated(right, forward, radians(angle_deg))); }
+  void pitch_down(float angle_deg) {
+    const auto [sine, cosine] = sine_cosine_deg(angle_deg);
+    forward = normalized(forward * cosine + cross(forward, right) * sine);
+  }
+  void roll_right(float angle_deg) {
+    const auto [sine, cosine] = sine_cosine_deg(angle_deg);
+    right = normalized(right * cosine + cross(forward, right) * sine);
+  }
 
   /// Turns heading and right about a unit vector of the world.
   void rotate_about(Vec3 axis, float angle_deg) {
-    forward = normalized(rotated(forward, axis, radians(angle_deg)));
-    right = normalized(rotated(right, axis, radians(angle_deg)));
+    const SineAndCosine turn = sine_cosine_deg(angle_deg);
+    forward = normalized(rotated(forward, axis, turn));
+    right = normalized(rotated(right, axis, turn));
   }
 };
 
