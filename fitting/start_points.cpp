@@ -76,6 +76,19 @@ std::vector<StartPoint> load_starts(const ParameterTable& table, const std::stri
   return points;
 }
 
+/// The estimate is a mean: thins on until this seed's plant is within the budget too, if a few steps get there.
+void thin_until_grown(const Model& model, GrowthBudget budget, Seed seed, ParameterValues& values) {
+  constexpr int kSteps = 6;
+  const GrowthSettings settings{budget, nullptr};
+  Plant plant;
+  for (int step = 0; step < kSteps; ++step) {
+    thin_to_budget(model, budget, values);
+    if (model.generate(values, seed, settings, plant).grown) return;
+    budget.max_stems *= 0.7;
+    budget.max_leaves *= 0.7;
+  }
+}
+
 /// The height of the grown plant above its base, or 0 where it does not grow.
 double grown_height_m(const Model& model, const GrowthSettings& settings, const ParameterValues& values,
                       Seed seed) {
@@ -126,7 +139,7 @@ std::vector<StartPoint> make_start_points(const Model& model, const std::string&
   for (std::size_t i = 0; i < presets; ++i) {
     set_if_known(table, "g_scale_v", 0, points[i].values);
     set_if_known(table, "relaxed_counts", 1, points[i].values);
-    thin_to_budget(model, budget, points[i].values);
+    thin_until_grown(model, budget, plant_seed, points[i].values);
     scale_to_height(model, budget, height_m, plant_seed, points[i].values);
     if (has_leaves(table, points[i].values)) {
       points.push_back({points[i].name + " without leaves", points[i].values});

@@ -36,11 +36,11 @@ class FlatHistory {
   std::deque<double> best_;
 };
 
+/// The start points one after the other, then again; a random point where there are none.
 Eigen::VectorXd first_mean(const Search& run, std::uint64_t restart) {
   Draws draws = draws_at(run.key, restart, 0);
-  const std::vector<double> point = restart == 0 && !run.starts.empty()
-                                        ? run.starts[0].point
-                                        : random_point(run.evaluator.dimension(), draws);
+  const std::vector<double> point = run.starts.empty() ? random_point(run.evaluator.dimension(), draws)
+                                                       : run.starts[restart % run.starts.size()].point;
   return Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
 }
 
@@ -69,10 +69,12 @@ std::vector<Eigen::VectorXd> in_order(const std::vector<Eigen::VectorXd>& candid
 }
 
 /// A start point is worth staying near to: with 0.3, a fit's first samples are all worse than its preset, and
-/// a minute is too short to come back (experiments/README.md). Restarts look everywhere [Hansen, section B].
+/// a minute is too short to come back (experiments/bundled_targets.md). Later rounds look twice as far around.
 double first_sigma(const Search& run, std::uint64_t restart) {
   if (const double given = run.setting("sigma0"); given > 0) return given;
-  return restart == 0 && !run.starts.empty() ? 0.05 : 0.3;
+  if (run.starts.empty()) return 0.3;
+  const double rounds = static_cast<double>(restart / run.starts.size());
+  return std::min(0.3, 0.05 * std::exp2(rounds));
 }
 
 /// One strategy from its first mean until it has nothing left to find.

@@ -12,9 +12,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/vector_math-inl.h"
 #include "plant/leaf_half.h"
 #include "render/span.h"
+#include "render/span_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace espalier {
@@ -26,17 +26,6 @@ namespace {
 struct LeafMap {
   float x[3], y[3], w[3];
 };
-
-/// Pixels [begin_x, end_x) × [begin_y, end_y).
-struct Box {
-  int begin_x, end_x, begin_y, end_y;
-};
-
-bool is_covered(const Mask& mask, const Box& box) {
-  for (int row = box.begin_y; row < box.end_y; ++row)
-    if (!is_span_set(mask.row(row).data(), box.begin_x, box.end_x)) return false;
-  return true;
-}
 
 /// Which of the pixels from `column` on are inside, one bit a lane.
 template <bool kPerspective>
@@ -68,7 +57,7 @@ std::uint64_t inside_bits(const LeafMap& map, const LeafHalf& half, float column
 }
 
 template <bool kPerspective>
-void draw_leaf(const LeafMap& map, const LeafHalf& half, const Box& box, Mask& mask) {
+void draw_leaf(const LeafMap& map, const LeafHalf& half, const PixelBox& box, Mask& mask) {
   constexpr Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   for (int row = box.begin_y; row < box.end_y; ++row) {
@@ -89,16 +78,12 @@ void draw_leaf(const LeafMap& map, const LeafHalf& half, const Box& box, Mask& m
 struct OrthographicBatch {
   HWY_ALIGN float x[kMostLanes], x_by_column[kMostLanes], x_by_row[kMostLanes];
   HWY_ALIGN float y[kMostLanes], y_by_column[kMostLanes], y_by_row[kMostLanes];
-  HWY_ALIGN float left[kMostLanes], right[kMostLanes], top[kMostLanes], bottom[kMostLanes];
+  HWY_ALIGN std::int32_t begin_x[kMostLanes], end_x[kMostLanes], begin_y[kMostLanes], end_y[kMostLanes];
 
   LeafMap map(std::size_t i) const {
     return {{x[i], x_by_column[i], x_by_row[i]}, {y[i], y_by_column[i], y_by_row[i]}, {1, 0, 0}};
   }
-  Box box(std::size_t i, const Mask& mask) const {
-    const PixelRun columns = centres_between(left[i], right[i], mask.width_px());
-    const PixelRun rows = centres_between(top[i], bottom[i], mask.height_px());
-    return {columns.begin, columns.end, rows.begin, rows.end};
-  }
+  PixelBox box(std::size_t i) const { return {begin_x[i], end_x[i], begin_y[i], end_y[i]}; }
 };
 
 Vector3 load3(const Vec3* from) {
@@ -143,7 +128,8 @@ struct LastRows {
 };
 
 /// Inverts (column, row) = base + x·side + y·axis. A leaf seen on edge gets coordinates that are not numbers.
-void prepare(const LeafRows& leaves, const Camera& camera, float half_width, OrthographicBatch& batch) {
+void prepare(const LeafRows& leaves, const Camera& camera, float half_width, const Mask& mask,
+             OrthographicBatch& batch) {
   const Floats d;
   const Vec3 right = camera.right * (1 / camera.metres_per_px),
              down = camera.up * (-1 / camera.metres_per_px);
@@ -166,10 +152,12 @@ void prepare(const LeafRows& leaves, const Camera& camera, float half_width, Ort
   const Vector half = hn::Set(d, half_width);
   const Vector reach_x = hn::Mul(hn::Abs(side_x), half), reach_y = hn::Mul(hn::Abs(side_y), half);
   const Vector zero = hn::Zero(d);
-  hn::Store(hn::Sub(hn::Add(base_x, hn::Min(axis_x, zero)), reach_x), d, batch.left);
-  hn::Store(hn::Add(hn::Add(base_x, hn::Max(axis_x, zero)), reach_x), d, batch.right);
-  hn::Store(hn::Sub(hn::Add(base_y, hn::Min(axis_y, zero)), reach_y), d, batch.top);
-  hn::Store(hn::Add(hn::Add(base_y, hn::Max(axis_y, zero)), reach_y), d, batch.bottom);
+  store_run(hn::Sub(hn::Add(base_x, hn::Min(axis_x, zero)), reach_x),
+            hn::Add(hn::Add(base_x, hn::Max(axis_x, zero)), reach_x), mask.width_px(), batch.begin_x,
+            batch.end_x);
+  store_run(hn::Sub(hn::Add(base_y, hn::Min(axis_y, zero)), reach_y),
+            hn::Add(hn::Add(base_y, hn::Max(axis_y, zero)), reach_y), mask.height_px(), batch.begin_y,
+            batch.end_y);
 }
 
 void draw_orthographic(const Plant& plant, const Camera& camera, Mask& mask) {
@@ -180,13 +168,13 @@ void draw_orthographic(const Plant& plant, const Camera& camera, Mask& mask) {
   for (std::size_t first = 0; first < leaves.size(); first += lanes) {
     const std::size_t count = std::min(lanes, leaves.size() - first);
     if (count == lanes)
-      prepare(rows_from(leaves, first), camera, half.half_width, batch);
+      prepare(rows_from(leaves, first), camera, half.half_width, mask, batch);
     else
-      prepare(LastRows(leaves, first).rows(), camera, half.half_width, batch);
+      prepare(LastRows(leaves, first).rows(), camera, half.half_width, mask, batch);
     for (std::size_t i = 0; i < count; ++i) {
       if (leaves.kind[first + i] != LeafKind::leaf) continue;
-      const Box box = batch.box(i, mask);
-      if (box.begin_x < box.end_x && !is_covered(mask, box)) draw_leaf<false>(batch.map(i), half, box, mask);
+      const PixelBox box = batch.box(i);
+      if (!box.is_empty() && !is_covered(mask, box)) draw_leaf<false>(batch.map(i), half, box, mask);
     }
   }
 }
@@ -215,7 +203,7 @@ LeafMap perspective_map(const Camera& camera, Vec3 stalk, Vec3 side, Vec3 axis) 
 }
 
 /// The pixels of the rectangle around a leaf; all pixels where it reaches behind the eye.
-Box perspective_box(const Camera& camera, Vec3 stalk_m, Vec3 half_side, Vec3 axis, const Mask& mask) {
+PixelBox perspective_box(const Camera& camera, Vec3 stalk_m, Vec3 half_side, Vec3 axis, const Mask& mask) {
   float left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY, nearest_m = INFINITY;
   for (const Vec3 corner :
        {stalk_m - half_side, stalk_m + half_side, stalk_m + axis - half_side, stalk_m + axis + half_side}) {
@@ -236,8 +224,8 @@ void draw_perspective(const Plant& plant, const Camera& camera, Mask& mask) {
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     if (leaves.kind[i] != LeafKind::leaf) continue;
     const Vec3 side = leaves.side[i] * leaves.width_m[i], axis = leaves.axis[i] * leaves.length_m[i];
-    const Box box = perspective_box(camera, leaves.position_m[i], side * half.half_width, axis, mask);
-    if (box.begin_x >= box.end_x || is_covered(mask, box)) continue;
+    const PixelBox box = perspective_box(camera, leaves.position_m[i], side * half.half_width, axis, mask);
+    if (box.is_empty() || is_covered(mask, box)) continue;
     draw_leaf<true>(perspective_map(camera, leaves.position_m[i] - camera.position_m, side, axis), half, box,
                     mask);
   }

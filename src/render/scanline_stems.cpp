@@ -13,9 +13,9 @@
 #include <array>
 #include <cmath>
 
-#include "core/vector_math-inl.h"
 #include "render/scanline_cone.h"
 #include "render/span.h"
+#include "render/span_lanes-inl.h"
 #include "render/stem_curve.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -55,6 +55,9 @@ struct ConeColumns {
 struct CurveColumns {
   alignas(64) std::array<std::array<Column, 3>, 4> p;
   alignas(64) Column cones;
+  std::array<std::int32_t, kBatch + kMostLanes> begin_x, end_x, begin_y, end_y;  ///< pixels they can meet
+
+  PixelBox box(std::size_t i) const { return {begin_x[i], end_x[i], begin_y[i], end_y[i]}; }
 };
 
 /// Points of consecutive knots, or of their handles, in the picture.
@@ -155,7 +158,7 @@ void set_cones(const PictureLanes& p0, const PictureLanes& p1, Vector r0, Vector
 
 /// Segments from knots [first + at, …) of the plant to their next knots: their curves, and as one cone each.
 void prepare(const Knots& knots, std::size_t first, int at, const OrthographicLanes& camera, float px_per_m,
-             CurveColumns& curves, ConeColumns& cones) {
+             const Mask& mask, CurveColumns& curves, ConeColumns& cones) {
   const std::size_t k = first + static_cast<std::size_t>(at);
   const PictureLanes p[4] = {camera.points(&knots.point_m[k]), camera.points(&knots.handle_out_m[k]),
                              camera.points(&knots.handle_in_m[k + 1]), camera.points(&knots.point_m[k + 1])};
@@ -169,6 +172,20 @@ void prepare(const Knots& knots, std::size_t first, int at, const OrthographicLa
   };
   const Vector r0 = radius_from(k), r1 = radius_from(k + 1);
   set_cones(p[0], p[3], r0, r1, cones, at);
+  const auto reach = hn::Max(r0, r1);
+  const auto least = [](Vector a, Vector b, Vector c, Vector d) {
+    return hn::Min(hn::Min(a, b), hn::Min(c, d));
+  };
+  const auto most = [](Vector a, Vector b, Vector c, Vector d) {
+    return hn::Max(hn::Max(a, b), hn::Max(c, d));
+  };
+  const auto i = static_cast<std::size_t>(at);
+  store_run(hn::Sub(least(p[0].x, p[1].x, p[2].x, p[3].x), reach),
+            hn::Add(most(p[0].x, p[1].x, p[2].x, p[3].x), reach), mask.width_px(), &curves.begin_x[i],
+            &curves.end_x[i]);
+  store_run(hn::Sub(least(p[0].y, p[1].y, p[2].y, p[3].y), reach),
+            hn::Add(most(p[0].y, p[1].y, p[2].y, p[3].y), reach), mask.height_px(), &curves.begin_y[i],
+            &curves.end_y[i]);
   const Vector chord = length2(hn::Sub(p[3].x, p[0].x), hn::Sub(p[3].y, p[0].y));
   store(cones_of(p[0], p[1], p[2], p[3], hn::Max(r0, r1), chord), curves.cones, at);
 }
@@ -247,11 +264,13 @@ void draw_orthographic(const Plant& plant, const Camera& camera, Mask& mask) {
         for (first = prepared = k; prepared < first + kBatch && prepared + lanes < knots.size();
              prepared += lanes)
           prepare(knots, first, static_cast<int>(prepared - first), lanes_of_camera, 1 / camera.metres_per_px,
-                  curves, chords);
+                  mask, curves, chords);
       if (k >= prepared) {
         pen.draw_segment(k, mask);
         continue;
       }
+      const PixelBox box = curves.box(k - first);
+      if (box.is_empty() || is_covered(mask, box)) continue;
       const float cones = curves.cones[k - first];
       if (cones <= 1)
         draw_cone_at(chords, k - first, mask);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "image/mask.h"
+
 namespace espalier {
 
 /// Bits [begin, end) of one word; 0 <= begin < end <= 64.
@@ -37,6 +39,20 @@ inline PixelRun centres_between(float low, float high, int size) {
   const int floor_of_first = static_cast<int>(first);
   return {floor_of_first + (static_cast<float>(floor_of_first) < first),
           static_cast<int>(std::min(high + 0.5f, limit))};
+}
+
+/// Pixels [begin_x, end_x) × [begin_y, end_y).
+struct PixelBox {
+  int begin_x, end_x, begin_y, end_y;
+
+  bool is_empty() const { return begin_x >= end_x || begin_y >= end_y; }
+};
+
+/// True where all pixels of a box that is not empty are set: what falls there need not be drawn.
+inline bool is_covered(const Mask& mask, const PixelBox& box) {
+  for (int row = box.begin_y; row < box.end_y; ++row)
+    if (!is_span_set(mask.row(row).data(), box.begin_x, box.end_x)) return false;
+  return true;
 }
 
 }  // namespace espalier

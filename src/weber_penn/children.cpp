@@ -61,15 +61,45 @@ bool ChildPlacer::next_slot(ChildSlot& slot) {
   return distribution_ > 1 ? next_in_whorl(slot) : next_along(slot);
 }
 
-bool ChildPlacer::next_along(ChildSlot& slot) {
+/// The running count has passed the next child.
+bool ChildPlacer::has_whole_child() const {
   constexpr float kRounding = 1e-4f;  // of a running count of up to some hundreds in float
+  return static_cast<float>(placed_ + 1) - reached_ <= kRounding;
+}
+
+bool ChildPlacer::next_run(ChildRun& run) {
+  const float rotate = p_.rotate[child_level_];
+  if (count_ < 0 || distribution_ > 1 || p_.rotate_v[child_level_] != 0 || !(rate_ > 0)) return false;
+  run.first = placed_;
+  while (has_whole_child()) ++placed_;
+  run.count = placed_ - run.first;
+  if (run.count == 0) return false;
+  const float shift = distribution_ * inverse_rate_;
+  const bool starts_odd = run.first % 2 == 1;
+  run.t_start = (static_cast<float>(run.first) - before_) * inverse_rate_ - (starts_odd ? shift : 0);
+  run.t_step = inverse_rate_;
+  run.t_odd = starts_odd ? shift : -shift;
+  run.alternate = rotate < 0;
+  if (run.alternate) {
+    run.roll_deg = (starts_odd ? -1.f : 1.f) * (180 + rotate);
+    run.roll_step_deg = 0;
+  } else {
+    run.roll_deg = rotation_deg_ + rotate;
+    run.roll_step_deg = rotate;
+    rotation_deg_ = std::fmod(rotation_deg_ + static_cast<float>(run.count) * rotate, 360.f);
+  }
+  return true;
+}
+
+bool ChildPlacer::next_along(ChildSlot& slot) {
   if (!(rate_ > 0)) return false;
   const float missing = static_cast<float>(placed_ + 1) - reached_;
+  const bool is_whole = has_whole_child();
   const bool relaxed_last = p_.relaxed_counts > 0 && last_segment_ && missing < 1;
-  if (missing > kRounding && !relaxed_last) return false;
+  if (!is_whole && !relaxed_last) return false;
   const float shift = placed_ % 2 == 1 ? distribution_ : 0;  // 1: opposite the one before it
   const float t = (static_cast<float>(placed_) - shift - before_) * inverse_rate_;
-  slot = {placed_, std::clamp(t, 0.f, 1.f), next_rotation_deg(), missing > kRounding ? 1 - missing : 1};
+  slot = {placed_, std::clamp(t, 0.f, 1.f), next_rotation_deg(), is_whole ? 1 : 1 - missing};
   ++placed_;
   return true;
 }
@@ -115,6 +145,7 @@ bool ChildPlacer::next_in_fan(ChildSite& site) {
   site.outward = segment_->end.forward;
   site.turtle.turn_right(p_.rotate[child_level_] * across + jitter_deg(placed_));
   site.turtle.pitch_down(down_angle_deg(stem_->length_m, placed_));
+  site.turtle.renormalize();
   ++placed_;
   return true;
 }
@@ -131,6 +162,7 @@ bool ChildPlacer::site_at(const ChildSlot& slot, ChildSite& site) const {
   site.turtle.roll_right(slot.roll_deg);
   site.outward = cross(site.turtle.forward, site.turtle.right);
   site.turtle.pitch_down(down_angle_deg(site.offset_m, slot.index));
+  site.turtle.renormalize();
   return true;
 }
 

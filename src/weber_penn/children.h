@@ -13,6 +13,16 @@ struct ChildSlot {
   float grown_fraction = 1;  ///< under 1 for the last child of a relaxed count
 };
 
+/// Children of one segment that follow each other by one rule: child k of `count` is child first + k of the
+/// parent. It sits at t_start + k·t_step (t_odd further where k is odd) along the segment, clamped to it, and
+/// is rolled by roll_deg + k·roll_step_deg, to the other side where k is odd and `alternate` is set.
+struct ChildRun {
+  int first = 0, count = 0;
+  float t_start = 0, t_step = 0, t_odd = 0;
+  float roll_deg = 0, roll_step_deg = 0;
+  bool alternate = false;
+};
+
 /// One place for a child on its parent's axis.
 struct ChildSite {
   int index = 0;              ///< along the parent, from its base
@@ -46,7 +56,12 @@ class ChildPlacer {
   /// The same without the turtle, except in fans; slots below the stem's base bear nothing.
   bool next_slot(ChildSlot& slot);
 
+  /// Takes all whole children of the segment at once, where they follow one rule: not in fans or whorls, nor
+  /// with random rotation. next_slot() then yields what is left.
+  bool next_run(ChildRun& run);
+
  private:
+  bool has_whole_child() const;
   bool next_along(ChildSlot& slot);
   bool next_in_whorl(ChildSlot& slot);
   bool next_in_fan(ChildSite& site);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "weber_penn/children.h"
@@ -12,6 +13,7 @@
 #include "weber_penn/leaf_placement.h"
 #include "weber_penn/pruning.h"
 #include "weber_penn/shape_ratio.h"
+#include "weber_penn/stem_batch.h"
 #include "weber_penn/stem_knots.h"
 #include "weber_penn/trunks.h"
 
@@ -33,7 +35,11 @@ class Growth {
  private:
   class StemGrowth;
 
+  StemGrowth begin_stem(const GrowingStem& stem);
+  void end_stem();
   void grow_stem(const GrowingStem& stem);
+  void grow_stems(std::span<const GrowingStem> stems);
+  std::size_t grow_next(std::size_t index, bool in_batches);
   void grow_child(const GrowingStem& parent, std::int32_t parent_index, const ChildSite& site);
   float child_length_m(const GrowingStem& parent, const ChildSite& site) const;
   float child_radius_m(const GrowingStem& parent, const ChildSite& site, float length_m) const;
@@ -43,6 +49,7 @@ class Growth {
   const WeberPennParameters& p_;
   const GrowthSettings& settings_;
   Plant& plant_;
+  StemBatch stem_batch_;
   LeafBatch batch_;
   std::vector<GrowingStem> level_, next_level_;  ///< queues
 };
@@ -86,13 +93,43 @@ class Growth::StemGrowth : public StemVisitor {
   std::optional<ChildPlacer> children_;
 };
 
-void Growth::grow_stem(const GrowingStem& stem) {
+/// Enters the stem into the plant's arrays; its knots follow.
+Growth::StemGrowth Growth::begin_stem(const GrowingStem& stem) {
   plant_.stems.parent.push_back(stem.parent);
   plant_.stems.level.push_back(static_cast<std::uint8_t>(stem.level));
   plant_.stems.path_key.push_back(stem.key.value);
-  StemGrowth growth(*this, stem);
-  walk_stem(stem, p_, growth);
+  return StemGrowth(*this, stem);
+}
+
+void Growth::end_stem() {
   plant_.stems.first_knot.push_back(static_cast<std::uint32_t>(plant_.knots.size()));
+}
+
+void Growth::grow_stem(const GrowingStem& stem) {
+  StemGrowth growth = begin_stem(stem);
+  walk_stem(stem, p_, growth);
+  end_stem();
+}
+
+void Growth::grow_stems(std::span<const GrowingStem> stems) {
+  stem_batch_.walk(stems, p_);
+  for (std::size_t i = 0; i < stems.size(); ++i) {
+    StemGrowth growth = begin_stem(stems[i]);
+    for (const Segment& segment : stem_batch_.segments(i)) growth.segment(stems[i], segment);
+    end_stem();
+  }
+}
+
+/// One stem, or as many as a batch holds; how many.
+std::size_t Growth::grow_next(std::size_t index, bool in_batches) {
+  if (in_batches) {
+    const std::size_t count = std::min<std::size_t>(StemBatch::kMostStems, level_.size() - index);
+    grow_stems(std::span(level_).subspan(index, count));
+    return count;
+  }
+  const GrowingStem stem = level_[index];  // a copy: clones are queued while it grows
+  grow_stem(stem);
+  return 1;
 }
 
 /// Level 1 follows the crown's shape, deeper levels their place on the parent [Weber & Penn 95, §4.4].
@@ -157,9 +194,9 @@ GrowthResult Growth::run(Seed seed) {
   }
   std::erase_if(level_, [](const GrowingStem& trunk) { return trunk.length_m < kShortestStem_m; });
   for (int level = 0; level < p_.level_count() && !level_.empty(); ++level) {
-    for (std::size_t index = 0; index < level_.size(); ++index) {
-      const GrowingStem stem = level_[index];  // a copy: clones are queued while it grows
-      grow_stem(stem);
+    const bool in_batches = StemBatch::takes(level, p_);
+    for (std::size_t index = 0; index < level_.size();) {
+      index += grow_next(index, in_batches);
       if (const double factor = over_budget_factor(); factor > 1) {
         batch_.flush();
         return {false, factor};

@@ -5,6 +5,8 @@
 // Highway's order: foreach_target before the files it compiles again.
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "core/vector_math-inl.h"
 #include "weber_penn/leaf_batch.h"
 #include "weber_penn/leaf_placement.h"
@@ -16,26 +18,26 @@ namespace {
 
 using Indices = hn::RebindToSigned<Floats>;
 
-/// Gathers one member of each lane's segment.
-class SegmentLanes {
+/// Gathers one member of each lane's row.
+class RowLanes {
  public:
-  SegmentLanes(const LeafNotes& notes, int first)
-      : rows_(&notes.segment[0].start_m.x),
-        index_(hn::Mul(hn::LoadU(Indices(), &notes.segment_index[static_cast<std::size_t>(first)]),
+  RowLanes(const LeafNotes& notes, int first)
+      : rows_(&notes.row[0].start_m.x),
+        index_(hn::Mul(hn::LoadU(Indices(), &notes.row_index[static_cast<std::size_t>(first)]),
                        hn::Set(Indices(), kStride))) {}
 
-  Vector number(float LeafSegment::*member) const {
-    static const LeafSegment kRow{};
+  Vector number(float LeafRow::*member) const {
+    static const LeafRow kRow{};
     return at(static_cast<int>(&(kRow.*member) - &kRow.start_m.x));
   }
-  Vector3 vector(Vec3 LeafSegment::*member) const {
-    static const LeafSegment kRow{};
+  Vector3 vector(Vec3 LeafRow::*member) const {
+    static const LeafRow kRow{};
     const int column = static_cast<int>(&(kRow.*member).x - &kRow.start_m.x);
     return {at(column), at(column + 1), at(column + 2)};
   }
 
  private:
-  static constexpr int kStride = sizeof(LeafSegment) / sizeof(float);
+  static constexpr int kStride = sizeof(LeafRow) / sizeof(float);
   Vector at(int column) const { return hn::GatherIndex(Floats(), rows_ + column, index_); }
 
   const float* rows_;
@@ -47,22 +49,22 @@ struct Heading {
 };
 
 /// Point and tangent of the segments' curves at t.
-Heading on_curve(const SegmentLanes& segment, Vector t) {
-  const Vector3 a = segment.vector(&LeafSegment::start_m), b = segment.vector(&LeafSegment::handle_out_m),
-                c = segment.vector(&LeafSegment::handle_in_m), e = segment.vector(&LeafSegment::end_m);
+Heading on_curve(const RowLanes& segment, Vector t) {
+  const Vector3 a = segment.vector(&LeafRow::start_m), b = segment.vector(&LeafRow::handle_out_m),
+                c = segment.vector(&LeafRow::handle_in_m), e = segment.vector(&LeafRow::end_m);
   const Vector u = hn::Sub(set(1), t), uu = hn::Mul(u, u), tt = hn::Mul(t, t), ut = hn::Mul(u, t);
   const Vector3 derivative = (b - a) * uu + (c - b) * hn::Mul(set(2), ut) + (e - c) * tt;
   return {a * hn::Mul(uu, u) + b * hn::Mul(set(3), hn::Mul(uu, t)) + c * hn::Mul(set(3), hn::Mul(u, tt)) +
               e * hn::Mul(tt, t),
-          normalized(derivative, segment.vector(&LeafSegment::heading))};
+          normalized(derivative, segment.vector(&LeafRow::heading))};
 }
 
 /// stem_radius_m for taper < 2 [stem_radius.cpp].
-Vector radius_at(const SegmentLanes& segment, Vector z, float taper) {
-  const Vector base = segment.number(&LeafSegment::base_radius_m);
+Vector radius_at(const RowLanes& segment, Vector z, float taper) {
+  const Vector base = segment.number(&LeafRow::base_radius_m);
   const Vector cone = hn::Mul(base, hn::Sub(set(1), hn::Mul(set(taper < 1 ? taper : 2 - taper), z)));
   if (taper < 1) return cone;
-  const Vector to_tip = hn::Mul(hn::Sub(set(1), z), segment.number(&LeafSegment::stem_length_m));
+  const Vector to_tip = hn::Mul(hn::Sub(set(1), z), segment.number(&LeafRow::stem_length_m));
   const Vector across = hn::Sub(to_tip, cone);
   const Vector squared = hn::Sub(hn::Mul(cone, cone), hn::Mul(across, across));
   return hn::IfThenElse(hn::Ge(to_tip, cone), cone, hn::Sqrt(hn::Max(squared, set(0))));
@@ -97,18 +99,36 @@ void bend_outwards(Placed& leaf, float leaf_bend) {
   leaf.side = turned_about_z(leaf.side, turn);
 }
 
+/// Along the segment, in [0, 1]; `k` counts leaves of the run.
+Vector run_position(const RowLanes& run, Vector k, hn::Mask<Floats> is_odd) {
+  const Vector even = hn::Add(run.number(&LeafRow::t_start), hn::Mul(k, run.number(&LeafRow::t_step)));
+  const Vector t = hn::IfThenElse(is_odd, hn::Add(even, run.number(&LeafRow::t_odd)), even);
+  return hn::Min(hn::Max(t, set(0)), set(1));
+}
+
+Vector run_roll_deg(const RowLanes& run, Vector k, hn::Mask<Floats> is_odd, bool alternate) {
+  const Vector roll =
+      hn::Add(run.number(&LeafRow::roll_deg), hn::Mul(k, run.number(&LeafRow::roll_step_deg)));
+  return alternate ? hn::IfThenElse(is_odd, hn::Neg(roll), roll) : roll;
+}
+
 Placed place(const LeafNotes& notes, int first, const WeberPennParameters& p, int stem_level) {
   const Floats d;
   const auto column = [&](const auto& values) {
     return hn::LoadU(d, &values[static_cast<std::size_t>(first)]);
   };
-  const SegmentLanes segment(notes, first);
-  const Vector z = column(notes.z);
-  const auto [point, tangent] = on_curve(segment, column(notes.t));
-  const Vector3 across = segment.vector(&LeafSegment::across);
+  const RowLanes segment(notes, first);
+  const auto k = hn::LoadU(Indices(), &notes.in_run[static_cast<std::size_t>(first)]);
+  const Vector along = hn::ConvertTo(d, k);
+  const auto is_odd = hn::MaskFromVec(hn::BitCast(d, hn::Neg(hn::And(k, hn::Set(Indices(), 1)))));
+  const Vector t = run_position(segment, along, is_odd);
+  const Vector z = hn::Add(segment.number(&LeafRow::z_start), hn::Mul(t, segment.number(&LeafRow::z_length)));
+  const auto [point, tangent] = on_curve(segment, t);
+  const Vector3 across = segment.vector(&LeafRow::across);
   const Vector3 fallback = normalized(cross(tangent, {set(0), set(1), set(0)}), {set(1), set(0), set(0)});
   const Vector3 flat = normalized(cross(across, tangent), fallback);
-  const SineCosine roll = sine_cosine_deg(column(notes.roll_deg));
+  const SineCosine roll =
+      sine_cosine_deg(run_roll_deg(segment, along, is_odd, p.rotate[level_index(stem_level + 1)] < 0));
   const Vector3 right = flat * roll.cosine + cross(tangent, flat) * roll.sine;
   const Vector3 outward = cross(tangent, right);
   const SineCosine down = sine_cosine_deg(down_angle_at(
@@ -143,40 +163,65 @@ namespace espalier {
 
 HWY_EXPORT(place_all);
 
+namespace {
+
+ChildRun without_first(const ChildRun& run) {
+  return {.first = run.first + 1,
+          .count = run.count - 1,
+          .t_start = run.t_start + run.t_step + run.t_odd,
+          .t_step = run.t_step,
+          .t_odd = -run.t_odd,
+          .roll_deg = run.alternate ? -run.roll_deg : run.roll_deg + run.roll_step_deg,
+          .roll_step_deg = run.roll_step_deg,
+          .alternate = run.alternate};
+}
+
+}  // namespace
+
 bool LeafBatch::takes(const GrowingStem& stem, const WeberPennParameters& p) {
   const int level = level_index(stem.level);
   return stem.level > 0 && p.leaf_blos_num > 0 && p.curve_v[level] >= 0 && p.taper[level] < 2;
 }
 
 void LeafBatch::add(const GrowingStem& stem, const Segment& segment, ChildPlacer& placer) {
-  const float bare = p_.base_size[level_index(stem.level)];
-  bool is_noted = false;
-  for (ChildSlot slot; placer.next_slot(slot);) {
-    const float z = segment.z_start + slot.t * (segment.z_end - segment.z_start);
-    if (z < bare || !(slot.grown_fraction > 0)) continue;
-    if (notes_.count == LeafNotes::kMost) {
-      flush();
-      is_noted = false;
-    }
-    if (!is_noted)
-      notes_.segment[static_cast<std::size_t>(notes_.segments++)] = {
-          segment.start_m, segment.handle_out_m, segment.handle_in_m,
-          segment.end_m,   segment.end.forward,  cross(segment.end.forward, segment.end.right),
-          stem.radius_m,   stem.length_m};
-    is_noted = true;
-    note(stem, slot, z);
+  const float bare = p_.base_size[level_index(stem.level)], z_length = segment.z_end - segment.z_start;
+  const auto is_bare = [&](float t) { return segment.z_start + std::clamp(t, 0.f, 1.f) * z_length < bare; };
+  if (ChildRun run; placer.next_run(run)) {
+    while (run.count > 0 && is_bare(run.t_start)) run = without_first(run);
+    note_run(stem, segment, run, 1);
   }
+  for (ChildSlot slot; placer.next_slot(slot);)
+    if (slot.grown_fraction > 0 && !is_bare(slot.t))
+      note_run(stem, segment, {.first = slot.index, .count = 1, .t_start = slot.t, .roll_deg = slot.roll_deg},
+               slot.grown_fraction);
 }
 
-void LeafBatch::note(const GrowingStem& stem, const ChildSlot& slot, float z) {
-  const auto i = static_cast<std::size_t>(notes_.count++);
-  notes_.t[i] = slot.t;
-  notes_.z[i] = z;
-  notes_.roll_deg[i] = slot.roll_deg;
-  notes_.jitter[i] = draw_signed(stem.key, Draw::child_down_angle, slot.index);
-  notes_.segment_index[i] = notes_.segments - 1;
-  notes_.growth[i] = leaf_growth(stem, slot.grown_fraction, p_);
-  notes_.kind[i] = leaf_kind(stem, slot.index, p_);
+void LeafBatch::note_run(const GrowingStem& stem, const Segment& segment, ChildRun run,
+                         float grown_fraction) {
+  const bool has_jitter = p_.down_angle_v[level_index(stem.level + 1)] != 0,
+             has_blossoms = p_.blossom_rate > 0;
+  const float growth = leaf_growth(stem, grown_fraction, p_);
+  for (int k = 0; k < run.count;) {
+    if (notes_.count == LeafNotes::kMost) flush();
+    const int row = notes_.rows++, end = std::min(run.count, k + LeafNotes::kMost - notes_.count);
+    notes_.row[static_cast<std::size_t>(row)] = {
+        segment.start_m,     segment.handle_out_m,
+        segment.handle_in_m, segment.end_m,
+        segment.end.forward, cross(segment.end.forward, segment.end.right),
+        stem.radius_m,       stem.length_m,
+        segment.z_start,     segment.z_end - segment.z_start,
+        run.t_start,         run.t_step,
+        run.t_odd,           run.roll_deg,
+        run.roll_step_deg};
+    for (; k < end; ++k) {
+      const auto i = static_cast<std::size_t>(notes_.count++);
+      notes_.row_index[i] = row;
+      notes_.in_run[i] = k;
+      notes_.growth[i] = growth;
+      notes_.jitter[i] = has_jitter ? draw_signed(stem.key, Draw::child_down_angle, run.first + k) : 0;
+      notes_.kind[i] = has_blossoms ? leaf_kind(stem, run.first + k, p_) : LeafKind::leaf;
+    }
+  }
 }
 
 void LeafBatch::append_sizes() {
@@ -200,7 +245,7 @@ void LeafBatch::flush() {
   (notes_, p_, &leaves_.position_m[before], &leaves_.axis[before], &leaves_.side[before]);
   for (std::vector<Vec3>* column : {&leaves_.position_m, &leaves_.axis, &leaves_.side}) column->resize(after);
   append_sizes();
-  notes_.count = notes_.segments = 0;
+  notes_.count = notes_.rows = 0;
 }
 
 }  // namespace espalier

@@ -11,25 +11,28 @@
 
 namespace espalier {
 
-/// A segment as the vector code reads it, one row of floats.
-struct LeafSegment {
+/// A run of leaves on a segment as the vector code reads it, one row of floats: the segment's curve and
+/// frame, its stem, and the rule of the run [children.h].
+struct LeafRow {
   Vec3 start_m, handle_out_m, handle_in_m, end_m;
   Vec3 heading;  ///< at its end
   Vec3 across;   ///< forward × right at its end: with the tangent it spans the plane of `right`
   float base_radius_m, stem_length_m;
+  float z_start, z_length;  ///< of the segment, along the stem
+  float t_start, t_step, t_odd, roll_deg, roll_step_deg;
 };
 
 /// Notes of leaves: column i of each array is one leaf.
 struct LeafNotes {
   static constexpr int kMost = 256;
-  int count = 0, segments = 0;
-  std::array<LeafSegment, kMost> segment;
-  alignas(64) std::array<float, kMost> t{}, z{}, roll_deg{},
-      jitter{};                                   ///< t along the segment, z along the stem
-  alignas(64) std::array<float, kMost> growth{};  ///< of its size, relative to leaf_scale
+  int count = 0, rows = 0;
+  std::array<LeafRow, kMost> row;
+  alignas(
+      64) std::array<std::int32_t, kMost> row_index{};   ///< beyond count, where vectors end, a row there is
+  alignas(64) std::array<std::int32_t, kMost> in_run{};  ///< k of the run
+  alignas(64) std::array<float, kMost> jitter{};         ///< of the down angle, in [-1, 1)
+  alignas(64) std::array<float, kMost> growth{};         ///< of its size, relative to leaf_scale
   std::array<LeafKind, kMost> kind{};
-  alignas(64) std::array<std::int32_t,
-                         kMost> segment_index{};  ///< also beyond count, where vectors end, a row there is
 };
 
 class LeafBatch {
@@ -49,7 +52,7 @@ class LeafBatch {
   int noted() const { return notes_.count; }
 
  private:
-  void note(const GrowingStem& stem, const ChildSlot& slot, float z);
+  void note_run(const GrowingStem& stem, const Segment& segment, ChildRun run, float grown_fraction);
   void append_sizes();
 
   const WeberPennParameters& p_;

@@ -138,6 +138,7 @@ void split(GrowingStem& stem, int at, int count, bool at_base, const WeberPennPa
   for (int index = 1; index <= count; ++index) {
     GrowingStem clone = make_clone(stem, at, index);
     turn_into_fork(clone.turtle, fork, index, count);
+    clone.turtle.renormalize();
     visitor.split(clone);
   }
   turn_into_fork(stem.turtle, fork, 0, count);
@@ -192,6 +193,7 @@ void walk_stem(GrowingStem stem, const WeberPennParameters& p, StemVisitor& visi
     else
       turn(stem, at, p);
     apply_tropism(stem, p);
+    stem.turtle.renormalize();
   }
 }
 

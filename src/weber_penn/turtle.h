@@ -22,6 +22,7 @@ inline float declination_deg(Vec3 forward) {
   return degrees(std::acos(std::fmin(1.f, std::fmax(-1.f, forward.z))));
 }
 
+/// Turns do not round the frame back to unit length: whoever makes many calls renormalize().
 struct Turtle {
   Vec3 position_m;
   Vec3 forward{0, 0, 1}, right{1, 0, 0};
@@ -32,24 +33,30 @@ struct Turtle {
   void turn_right(float angle_deg) {
     const auto [sine, cosine] = sine_cosine_deg(angle_deg);
     const Vec3 ahead = forward;
-    forward = normalized(ahead * cosine + right * sine);
-    right = normalized(right * cosine - ahead * sine);
+    forward = ahead * cosine + right * sine;
+    right = right * cosine - ahead * sine;
   }
   void turn_left(float angle_deg) { turn_right(-angle_deg); }
   void pitch_down(float angle_deg) {
     const auto [sine, cosine] = sine_cosine_deg(angle_deg);
-    forward = normalized(forward * cosine + cross(forward, right) * sine);
+    forward = forward * cosine + cross(forward, right) * sine;
   }
   void roll_right(float angle_deg) {
     const auto [sine, cosine] = sine_cosine_deg(angle_deg);
-    right = normalized(right * cosine + cross(forward, right) * sine);
+    right = right * cosine + cross(forward, right) * sine;
   }
 
   /// Turns heading and right about a unit vector of the world.
   void rotate_about(Vec3 axis, float angle_deg) {
     const SineAndCosine turn = sine_cosine_deg(angle_deg);
-    forward = normalized(rotated(forward, axis, turn));
-    right = normalized(rotated(right, axis, turn));
+    forward = rotated(forward, axis, turn);
+    right = rotated(right, axis, turn);
+  }
+
+  /// Both vectors back to unit length, at a right angle.
+  void renormalize() {
+    forward = normalized(forward);
+    right = normalized(right - forward * dot(forward, right), any_perpendicular(forward));
   }
 };
 

@@ -81,8 +81,12 @@ std::map<std::string, std::vector<Counts>> read_reference(const std::filesystem:
   return trees;
 }
 
-std::vector<Counts> our_trees(const std::string& species) {
-  const Preset preset = load_preset(species);
+using Changes = std::map<std::string, double>;  ///< values to set in a preset
+
+std::vector<Counts> our_trees(const std::string& species, const Changes& changes) {
+  Preset preset = load_preset(species);
+  for (const auto& [name, value] : changes)
+    preset.values[*model_by_name(preset.model).table().find(name)] = value;
   std::vector<Counts> trees;
   Plant plant;
   for (Seed seed = 1; seed <= kSeeds; ++seed) {
@@ -105,10 +109,11 @@ Moments moments(const std::vector<Counts>& trees, int column) {
 }
 
 /// "species,column" with its difference in percent, where it is beyond both tolerances.
-std::map<std::string, double> differences(const std::map<std::string, std::vector<Counts>>& reference) {
+std::map<std::string, double> differences(const std::map<std::string, std::vector<Counts>>& reference,
+                                          const Changes& changes = {}) {
   std::map<std::string, double> beyond;
   for (const auto& [species, theirs] : reference) {
-    const std::vector<Counts> ours = our_trees(species);
+    const std::vector<Counts> ours = our_trees(species, changes);
     for (int column = 0; column < kColumns; ++column) {
       const Moments a = moments(ours, column), b = moments(theirs, column);
       const double error = std::sqrt(a.squared_error + b.squared_error);
@@ -135,10 +140,22 @@ TEST(Counts, AgreeWithThePublishedTreesOrAreListedWithTheReason) {
   for (const auto& [name, percent] : found) {
     EXPECT_TRUE(listed.contains(name)) << name << "," << percent << ": not listed";
     if (listed.contains(name)) {
-      EXPECT_NEAR(listed[name], percent, 3) << name << ": listed with another difference";
+      EXPECT_NEAR(listed[name], percent, 3) << name << "," << percent << ": listed with another difference";
     }
   }
   for (const auto& [name, percent] : listed) EXPECT_TRUE(found.contains(name)) << name << ": listed in vain";
+}
+
+/// The reason that counts_differences.csv gives for acer and hill_cherry, whose base_splits are negative.
+TEST(Counts, OfPublishedTreesAreThoseWithoutNegativeBaseSplits) {
+  const std::filesystem::path reference = std::filesystem::path(ESPALIER_SHARED_DIR) / "reference/counts.csv";
+  if (!std::filesystem::exists(reference)) GTEST_SKIP() << "needs the reference counts, " << reference;
+  auto trees = read_reference(reference);
+  std::erase_if(trees,
+                [](const auto& entry) { return entry.first != "acer" && entry.first != "hill_cherry"; });
+  ASSERT_EQ(trees.size(), 2u);
+  for (const auto& [name, percent] : differences(trees, {{"base_splits", 0}}))
+    EXPECT_LT(std::fabs(percent), 15) << name;
 }
 
 }  // namespace

@@ -1,0 +1,29 @@
+// Runs of pixels of many shapes at once, for files that Highway compiles once per instruction set.
+#if defined(ESPALIER_RENDER_SPAN_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ESPALIER_RENDER_SPAN_LANES_INL_H
+#undef ESPALIER_RENDER_SPAN_LANES_INL_H
+#else
+#define ESPALIER_RENDER_SPAN_LANES_INL_H
+#endif
+
+#include "core/vector_math-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace espalier {
+namespace HWY_NAMESPACE {
+
+/// centres_between [span.h] of each lane. Bounds that are no numbers give an empty run.
+inline void store_run(Vector low, Vector high, int size, std::int32_t* begin, std::int32_t* end) {
+  const hn::RebindToSigned<Floats> di;
+  const Vector half = set(0.5f), limit = set(static_cast<float>(size));
+  const Vector first = hn::Ceil(hn::Min(hn::Max(hn::Sub(low, half), set(0)), limit));
+  const Vector last = hn::Floor(hn::Max(hn::Min(hn::Add(high, half), limit), set(0)));
+  hn::StoreU(hn::ConvertTo(di, first), di, begin);
+  hn::StoreU(hn::ConvertTo(di, hn::IfThenElse(hn::Le(low, high), last, set(0))), di, end);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace espalier
+HWY_AFTER_NAMESPACE();
+
+#endif
