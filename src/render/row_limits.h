@@ -13,7 +13,8 @@ class RowLimits {
  public:
   void add(float c, float e, float f) {
     const float steep = std::copysign(std::max(std::fabs(c), 1e-12f), c);
-    (steep > 0 ? upper_ : lower_)[count_] = {e / steep, f / steep};
+    Line& line = steep > 0 ? upper_[count_] : lower_[count_];
+    line = {e / steep, f / steep};
     ++count_;
   }
   float low(float y) const {
