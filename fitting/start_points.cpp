@@ -76,7 +76,8 @@ std::vector<StartPoint> load_starts(const ParameterTable& table, const std::stri
   return points;
 }
 
-/// The estimate is a mean: thins on until this seed's plant is within the budget too, if a few steps get there.
+/// The estimate is a mean: thins on until this seed's plant is within the budget too, if a few steps get
+/// there.
 void thin_until_grown(const Model& model, GrowthBudget budget, Seed seed, ParameterValues& values) {
   constexpr int kSteps = 6;
   const GrowthSettings settings{budget, nullptr};

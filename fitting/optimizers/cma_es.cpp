@@ -69,7 +69,8 @@ std::vector<Eigen::VectorXd> in_order(const std::vector<Eigen::VectorXd>& candid
 }
 
 /// A start point is worth staying near to: with 0.3, a fit's first samples are all worse than its preset, and
-/// a minute is too short to come back (experiments/bundled_targets.md). Later rounds look twice as far around.
+/// a minute is too short to come back (experiments/bundled_targets.md). Later rounds look twice as far
+/// around.
 double first_sigma(const Search& run, std::uint64_t restart) {
   if (const double given = run.setting("sigma0"); given > 0) return given;
   if (run.starts.empty()) return 0.3;

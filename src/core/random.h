@@ -28,8 +28,8 @@ constexpr RandomKey child_key(RandomKey parent, std::uint64_t index) {
   return {mix_bits(parent.value ^ mix_bits(index + 1))};
 }
 
-/// All 64 bits of the draw for `purpose` and `index` at this place: a step of SplitMix64 from the key, far from
-/// those of other keys, which are mixed themselves.
+/// All 64 bits of the draw for `purpose` and `index` at this place: a step of SplitMix64 from the key, far
+/// from those of other keys, which are mixed themselves.
 constexpr std::uint64_t random_bits(RandomKey key, std::uint32_t purpose, std::uint32_t index = 0) {
   constexpr std::uint64_t kGamma = 0x9e3779b97f4a7c15ull;
   return mix_bits(key.value + ((std::uint64_t{purpose} << 32) | index) * kGamma);
