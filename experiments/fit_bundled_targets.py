@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Fits every picture in targets/ for the same time and writes the table of what came out.
 
-    experiments/fit_bundled_targets.py [--seconds 60] [--seed 1] [--out runs/bundled] [options of espalier fit]
+    experiments/fit_bundled_targets.py [--seconds 60] [--seed 1] [--out runs/bundled] [--pictures fir,oc_palm]
+                                       [options of espalier fit]
 
 Runs that are already in the directory are kept, so that a stopped experiment goes on where it was.
 Writes OUT/README.md; the committed page is a copy, experiments/bundled_targets.md."""
@@ -44,10 +45,14 @@ def main():
     parser.add_argument("--seconds", type=float, default=60)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("runs/bundled"))
+    parser.add_argument("--pictures", help="some of them, with commas between")
     arguments, options = parser.parse_known_args()
+    pictures = sorted((ROOT / "targets").glob("*.png"))
+    if arguments.pictures:
+        pictures = [ROOT / "targets" / f"{name}.png" for name in arguments.pictures.split(",")]
     arguments.out.mkdir(parents=True, exist_ok=True)
     summaries = {}
-    for picture in sorted((ROOT / "targets").glob("*.png")):
+    for picture in pictures:
         directory = arguments.out / picture.stem
         summaries[picture.stem] = fit(picture, directory, arguments.seconds, arguments.seed, options)
         print(picture.stem, " ".join(f"{c} {cell(summaries[picture.stem], c)}" for c in COLUMNS), flush=True)
