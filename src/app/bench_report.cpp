@@ -85,8 +85,9 @@ std::vector<OldBench> read_bench_json(const std::filesystem::path& path) {
   std::ifstream file(path);
   if (!file) throw_input_error("{}: no such file, expected a report of espalier bench --json", path.string());
   try {
+    const Json report = Json::parse(file);
     std::vector<OldBench> old;
-    for (const Json& c : Json::parse(file).at("cases"))
+    for (const Json& c : report.at("cases"))
       old.push_back({{c.at("species"), c.at("size_px"), c.at("leaves")},
                      c.at("evaluations_per_second"),
                      c.at("evaluations_per_second_all_threads")});
