@@ -62,9 +62,10 @@ struct GrowingStem {
   float parent_child_max = 0;
   // The state of splitting, handed on to clones.
   int first_segment = 0;
+  float split_error = 0;  ///< of the error diffusion of seg_splits
   float clone_probability = 1;
-  float branch_factor = 1;         ///< handed to clones, not below 0.8
-  float child_share = 1;           ///< of the children that an unsplit stem would bear per segment
+  float branch_factor = 1;  ///< of child_share at each chance to split, not below 0.8; handed to clones
+  float child_share = 1;    ///< of the children that an unsplit stem would bear per segment
   float split_correction_deg = 0;  ///< paid back at each later segment end
 };
 

@@ -41,14 +41,10 @@ void apply_tropism(GrowingStem& stem, const WeberPennParameters& p) {
 
 constexpr unsigned kFirstCloneIndex = 1'000'000, kClonesPerSplit = 16;  ///< keys beyond those of children
 
-struct SplitState {
-  float error;  ///< of the error diffusion of seg_splits along this stem
-};
-
-/// Trunks start at 0 as in the published implementation, all else at random: the mean is the same.
+/// Of the error diffusion. Trunks start at 0 as in the published implementation, all else at random, which
+/// keeps the mean while stems may grow in any order.
 float first_split_error(const GrowingStem& stem) {
-  const bool is_trunk = stem.level == 0 && stem.first_segment == 0;
-  return is_trunk ? 0 : draw_unit(stem.key, Draw::split_error);
+  return stem.level == 0 ? 0 : draw_unit(stem.key, Draw::split_error);
 }
 
 bool is_base_split(const GrowingStem& stem, int at, const WeberPennParameters& p) {
@@ -62,15 +58,27 @@ int base_split_count(const GrowingStem& stem, const WeberPennParameters& p) {
   return static_cast<int>(draw_unit(stem.key, Draw::base_splits) * (1 - p.base_splits));
 }
 
-/// Clones at an ordinary segment end, fractions diffused along the stem from a random start.
-int diffused_split_count(const GrowingStem& stem, SplitState& state, int at, const WeberPennParameters& p) {
+/// A chance to split leaves less for each part: further splits are less likely, and the rest of the stem
+/// bears children at a rate that falls by the branch factor, which the clones inherit.
+void thin_out(GrowingStem& stem, int count) {
+  const float parts = static_cast<float>(count + 1);
+  stem.clone_probability /= parts;
+  stem.branch_factor = std::max(0.8f, stem.branch_factor / parts);
+  stem.child_share *= stem.branch_factor;
+}
+
+/// Clones at an ordinary segment end, fractions diffused along the stem from a random start. The stem thins
+/// out at every chance that is taken, also where no whole clone comes of it (the published implementation's
+/// rule).
+int diffused_split_count(GrowingStem& stem, int at, const WeberPennParameters& p) {
   const float rate = p.seg_splits[level_index(stem.level)];
   const bool above_base =
       stem.level > 0 || static_cast<float>(at) > std::ceil(p.base_size[0] * segment_count(p, 0));
   if (rate <= 0 || !above_base) return 0;
   if (draw_unit(stem.key, Draw::split_chance, at) > stem.clone_probability) return 0;
-  const int count = static_cast<int>(rate + state.error);
-  state.error += rate - static_cast<float>(count);
+  const int count = static_cast<int>(rate + stem.split_error);
+  stem.split_error += rate - static_cast<float>(count);
+  thin_out(stem, count);
   return count;
 }
 
@@ -112,31 +120,23 @@ void turn_into_fork(Turtle& turtle, const Fork& fork, int index, int count) {
   turtle.rotate_about({0, 0, 1}, fork.spread_deg * side);
 }
 
-/// A split leaves less for each part: further splits are less likely, except after those at the base of the
-/// crown, and all parts bear fewer children, at a rate that falls with what is left of the stem.
-void thin_out(GrowingStem& stem, int at, int count, bool at_base, const WeberPennParameters& p) {
-  const float parts = static_cast<float>(count + 1);
-  if (!at_base) stem.clone_probability /= parts;
-  stem.branch_factor = std::max(0.8f, stem.branch_factor / parts);
-  stem.child_share = stem.branch_factor * (1 - static_cast<float>(at) / segment_count(p, stem.level));
-}
-
-GrowingStem make_clone(const GrowingStem& stem, int at, int index) {
+GrowingStem make_clone(const GrowingStem& stem, int at, int index, const WeberPennParameters& p) {
   GrowingStem clone = stem;
   clone.key = child_key(stem.key, kFirstCloneIndex + kClonesPerSplit * static_cast<unsigned>(at) + index);
   clone.first_segment = at;
+  clone.child_share = stem.branch_factor * (1 - static_cast<float>(at) / segment_count(p, stem.level));
+  clone.split_error = draw_unit(clone.key, Draw::split_error);
   return clone;
 }
 
 /// Splits at segment end `at` into count + 1: `count` clones, and the stem itself, which is turned as well.
 void split(GrowingStem& stem, int at, int count, bool at_base, const WeberPennParameters& p,
            StemVisitor& visitor) {
-  thin_out(stem, at, count, at_base, p);
   const Fork fork = p.split_angle[level_index(stem.level)] < 0 ? flat_fork(stem, at, p)
                                                                : round_fork(stem, at, count, at_base, p);
   stem.split_correction_deg = fork.correction_deg;
   for (int index = 1; index <= count; ++index) {
-    GrowingStem clone = make_clone(stem, at, index);
+    GrowingStem clone = make_clone(stem, at, index, p);
     turn_into_fork(clone.turtle, fork, index, count);
     clone.turtle.renormalize();
     visitor.split(clone);
@@ -178,16 +178,15 @@ Vec3 segment_tangent(const Segment& s, float t) {
 void walk_stem(GrowingStem stem, const WeberPennParameters& p, StemVisitor& visitor) {
   if (p.curve_v[level_index(stem.level)] < 0) return walk_helix(stem, p, visitor);
   const int segments = segment_count(p, stem.level);
-  SplitState state{first_split_error(stem)};
+  if (stem.first_segment == 0) stem.split_error = first_split_error(stem);
   Vec3 heading = stem.turtle.forward;
   for (int index = stem.first_segment; index < segments; ++index) {
     const Segment segment = advance(stem, heading, index, segments);
     heading = stem.turtle.forward;
-    if (!visitor.segment(stem, segment)) return;
     const int at = index + 1;
-    if (at == segments) return;
-    const bool at_base = is_base_split(stem, at, p);
-    const int count = at_base ? base_split_count(stem, p) : diffused_split_count(stem, state, at, p);
+    const bool at_tip = at == segments, at_base = is_base_split(stem, at, p);
+    const int count = at_tip ? 0 : at_base ? base_split_count(stem, p) : diffused_split_count(stem, at, p);
+    if (!visitor.segment(stem, segment) || at_tip) return;
     if (count > 0)
       split(stem, at, count, at_base, p, visitor);
     else
