@@ -1,7 +1,6 @@
 #include "fitting/run_directory.h"
 
 #include <algorithm>
-#include <bit>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -30,14 +29,6 @@ Picture enlarged(const Picture& picture, int factor) {
   return large;
 }
 
-std::size_t disagreement_px(const std::vector<Mask>& a, const std::vector<Mask>& b) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t w = 0; w < a[i].words().size(); ++w)
-      count += static_cast<std::size_t>(std::popcount(a[i].words()[w] ^ b[i].words()[w]));
-  return count;
-}
-
 std::string best_to_toml(const RunState& state) {
   const std::string stem = state.record.views.front().picture.stem().string();
   return preset_to_toml({stem + "_fit",
@@ -56,9 +47,10 @@ std::optional<FitOutcome> outcome_of(const RunState& state) {
 void write_best_pictures(const fs::path& directory, RunState& state) {
   const std::vector<Mask> best = draw_candidate(state.task, state.best.values, *state.task.make_renderer());
   const std::vector<Mask> reference = draw_candidate(state.task, state.best.values, *make_embree_renderer());
-  state.embree_disagreement_px = disagreement_px(best, reference);
+  state.embree_disagreement_px = 0;
   for (std::size_t i = 0; i < state.task.views.size(); ++i) {
     const Mask& target = state.task.views[i].target.mask();
+    state.embree_disagreement_px += differing_px(best[i], reference[i]);
     write_mask_png(numbered(directory, "best", i), best[i]);
     write_png(numbered(directory, "overlay", i),
               enlarged(overlay(best[i], target), std::max(1, kOverlayPx / target.width_px())));

@@ -2,7 +2,6 @@
 
 #include <omp.h>
 
-#include <bit>
 #include <chrono>
 
 #include "image/compare.h"
@@ -110,8 +109,7 @@ void count_differing(const Setting& setting, BenchResult& result) {
   make_scanline_renderer()->draw(plant, setting.camera, drawn);
   make_embree_renderer()->draw(plant, setting.camera, traced);
   result.set_px = area_px(traced);
-  for (std::size_t i = 0; i < drawn.words().size(); ++i)
-    result.differing_px += static_cast<std::size_t>(std::popcount(drawn.words()[i] ^ traced.words()[i]));
+  result.differing_px = differing_px(drawn, traced);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "image/distance.h"
 
 #include <bit>
+#include <utility>
 
 #include "image/bits.h"
 #include "image/morphology.h"
@@ -9,9 +10,10 @@ namespace espalier {
 
 namespace {
 
-/// Takes the pixels at distance <= k of a mask to those at distance <= k + 1.
-Mask grow_octagon(const Mask& reached, int k) {
-  return k % 2 == 0 ? dilate_plus(reached) : dilate_square(reached);
+/// Takes the pixels at distance <= k of a mask to those at distance <= k + 1. `spare` is memory only.
+void grow_octagon(Mask& reached, int k, Mask& spare) {
+  k % 2 == 0 ? dilate_plus(reached, spare) : dilate_square(reached, spare);
+  std::swap(reached, spare);
 }
 
 /// Adds 1 to the bit-plane numbers of all pixels that `where` does not hold.
@@ -30,13 +32,14 @@ void increment_outside(const Mask& where, std::vector<Mask>& planes) {
 
 // min(d, L) = the number of k in 0..L-1 with d > k.
 std::size_t sum_distances_px(const Mask& over, const Mask& from, int limit_px) {
-  Mask reached = from;
+  static thread_local Mask reached, spare;  // memory only: a search asks for millions of distances
+  reached = from;
   std::size_t sum = 0;
   for (int k = 0; k < limit_px; ++k) {
     const std::size_t beyond = count_and_not(over.words(), reached.words());
     if (beyond == 0) break;
     sum += beyond;
-    if (k + 1 < limit_px) reached = grow_octagon(reached, k);
+    if (k + 1 < limit_px) grow_octagon(reached, k, spare);
   }
   return sum;
 }
@@ -44,10 +47,10 @@ std::size_t sum_distances_px(const Mask& over, const Mask& from, int limit_px) {
 std::vector<Mask> distance_bit_planes(const Mask& from, int limit_px) {
   const auto plane_count = std::bit_width(static_cast<unsigned>(limit_px));
   std::vector<Mask> planes(plane_count, Mask(from.width_px(), from.height_px()));
-  Mask reached = from;
+  Mask reached = from, spare;
   for (int k = 0; k < limit_px; ++k) {
     increment_outside(reached, planes);
-    reached = grow_octagon(reached, k);
+    grow_octagon(reached, k, spare);
   }
   return planes;
 }

@@ -12,11 +12,7 @@ namespace espalier {
 class Mask {
  public:
   Mask() = default;
-  Mask(int width_px, int height_px)
-      : width_px_(width_px),
-        height_px_(height_px),
-        words_per_row_((width_px + 63) / 64),
-        words_(static_cast<std::size_t>(words_per_row_) * height_px, 0) {}
+  Mask(int width_px, int height_px) { reset(width_px, height_px); }
 
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
@@ -39,6 +35,13 @@ class Mask {
   }
   std::span<const std::uint64_t> words() const { return words_; }
   std::span<std::uint64_t> words() { return words_; }
+  /// All zero, of this size; memory is kept.
+  void reset(int width_px, int height_px) {
+    width_px_ = width_px;
+    height_px_ = height_px;
+    words_per_row_ = (width_px + 63) / 64;
+    words_.assign(static_cast<std::size_t>(words_per_row_) * height_px, 0);
+  }
   void clear() { std::fill(words_.begin(), words_.end(), 0); }
 
   bool operator==(const Mask&) const = default;
@@ -54,5 +57,8 @@ class Mask {
 
 /// Number of set pixels.
 std::size_t area_px(const Mask& mask);
+
+/// Number of pixels set in one mask and not in the other; both have the same size.
+std::size_t differing_px(const Mask& a, const Mask& b);
 
 }  // namespace espalier

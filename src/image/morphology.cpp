@@ -107,25 +107,35 @@ Mask complement(const Mask& mask) {
 }
 
 Mask dilate_plus(const Mask& mask) {
-  Mask result(mask.width_px(), mask.height_px());
+  Mask result;
+  dilate_plus(mask, result);
+  return result;
+}
+
+Mask dilate_square(const Mask& mask) {
+  Mask result;
+  dilate_square(mask, result);
+  return result;
+}
+
+void dilate_plus(const Mask& mask, Mask& result) {
+  result.reset(mask.width_px(), mask.height_px());
   for (int y = 0; y < mask.height_px(); ++y) {
     or_with_neighbours(result.row(y), mask.row(y));
     if (y > 0) or_row(result.row(y), mask.row(y - 1));
     if (y + 1 < mask.height_px()) or_row(result.row(y), mask.row(y + 1));
   }
   clear_padding(result);
-  return result;
 }
 
-Mask dilate_square(const Mask& mask) {
-  Mask result(mask.width_px(), mask.height_px());
+void dilate_square(const Mask& mask, Mask& result) {
+  result.reset(mask.width_px(), mask.height_px());
   for (int y = 0; y < mask.height_px(); ++y) {
     or_with_neighbours(result.row(y), mask.row(y));
     if (y > 0) or_with_neighbours(result.row(y), mask.row(y - 1));
     if (y + 1 < mask.height_px()) or_with_neighbours(result.row(y), mask.row(y + 1));
   }
   clear_padding(result);
-  return result;
 }
 
 Mask dilate_disc(const Mask& mask, int radius_px) {

@@ -12,6 +12,10 @@ Mask dilate_plus(const Mask& mask);
 /// One step of the chessboard distance: each set pixel and its 8 neighbours.
 Mask dilate_square(const Mask& mask);
 
+/// The same into `result`, which keeps its memory; not in place.
+void dilate_plus(const Mask& mask, Mask& result);
+void dilate_square(const Mask& mask, Mask& result);
+
 /// All pixels within `radius_px` (Euclidean, centre to centre) of a set one.
 Mask dilate_disc(const Mask& mask, int radius_px);
 

@@ -129,10 +129,7 @@ void EmbreeScene::build(const Plant& plant, float tolerance_m) {
 }
 
 void EmbreeScene::trace(const Camera& camera, Mask& mask) const {
-  if (mask.width_px() != camera.width_px || mask.height_px() != camera.height_px)
-    mask = Mask(camera.width_px, camera.height_px);
-  else
-    mask.clear();
+  mask.reset(camera.width_px, camera.height_px);
   const Camera traced = moved_before(camera, box_m_);
   const PixelRectangle frame = covered_pixels(traced, box_m_);
   for (int y = frame.begin_y; y < frame.end_y; y += kTile)

@@ -36,14 +36,14 @@ PixelRectangle covered_pixels(const Camera& camera, const Bounds& box) {
   for (const Vec3 corner : corners_of(box)) {
     const PicturePoint p = project(camera, corner);
     if (camera.projection == Projection::perspective && p.depth_m < kNearestM)
-      return {0, 0, camera.width_px, camera.height_px};
+      return {0, camera.width_px, 0, camera.height_px};
     low_x = std::min(low_x, p.x_px);
     low_y = std::min(low_y, p.y_px);
     high_x = std::max(high_x, p.x_px);
     high_y = std::max(high_y, p.y_px);
   }
-  return {first_pixel(low_x, camera.width_px), first_pixel(low_y, camera.height_px),
-          last_pixel(high_x, camera.width_px), last_pixel(high_y, camera.height_px)};
+  return {first_pixel(low_x, camera.width_px), last_pixel(high_x, camera.width_px),
+          first_pixel(low_y, camera.height_px), last_pixel(high_y, camera.height_px)};
 }
 
 Camera moved_before(const Camera& camera, const Bounds& box) {

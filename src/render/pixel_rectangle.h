@@ -6,7 +6,9 @@ namespace espalier {
 
 /// Pixels [begin_x, end_x) × [begin_y, end_y).
 struct PixelRectangle {
-  int begin_x = 0, begin_y = 0, end_x = 0, end_y = 0;
+  int begin_x = 0, end_x = 0, begin_y = 0, end_y = 0;
+
+  bool is_empty() const { return begin_x >= end_x || begin_y >= end_y; }
 };
 
 /// Contains all pixels of the camera whose centre's ray can meet `box`; all pixels where a perspective

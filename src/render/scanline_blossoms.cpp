@@ -43,7 +43,7 @@ float reach_of(const LeafOutline& outline) {
 }
 
 /// The pixels of the square around a ball, empty where it reaches behind a perspective camera's eye.
-PixelBox box_around(const Camera& camera, Vec3 center_m, float radius_m, const Mask& mask) {
+PixelRectangle box_around(const Camera& camera, Vec3 center_m, float radius_m, const Mask& mask) {
   const PicturePoint p = project(camera, center_m);
   float radius_px = radius_m / camera.metres_per_px;
   if (camera.projection == Projection::perspective) {
@@ -77,7 +77,7 @@ void draw_blossoms(const Plant& plant, const Camera& camera, Mask& mask) {
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     if (leaves.kind[i] != LeafKind::blossom) continue;
     const float radius_m = reach * std::max(leaves.length_m[i], leaves.width_m[i]);
-    const PixelBox box = box_around(camera, leaves.position_m[i], radius_m, mask);
+    const PixelRectangle box = box_around(camera, leaves.position_m[i], radius_m, mask);
     if (!box.is_empty() && !is_covered(mask, box)) draw_blossom(leaves, i, outline, camera, mask);
   }
 }

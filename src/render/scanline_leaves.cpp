@@ -57,7 +57,7 @@ std::uint64_t inside_bits(const LeafMap& map, const LeafHalf& half, float column
 }
 
 template <bool kPerspective>
-void draw_leaf(const LeafMap& map, const LeafHalf& half, const PixelBox& box, Mask& mask) {
+void draw_leaf(const LeafMap& map, const LeafHalf& half, const PixelRectangle& box, Mask& mask) {
   constexpr Floats d;
   const int lanes = static_cast<int>(hn::Lanes(d));
   for (int row = box.begin_y; row < box.end_y; ++row) {
@@ -83,7 +83,7 @@ struct OrthographicBatch {
   LeafMap map(std::size_t i) const {
     return {{x[i], x_by_column[i], x_by_row[i]}, {y[i], y_by_column[i], y_by_row[i]}, {1, 0, 0}};
   }
-  PixelBox box(std::size_t i) const { return {begin_x[i], end_x[i], begin_y[i], end_y[i]}; }
+  PixelRectangle box(std::size_t i) const { return {begin_x[i], end_x[i], begin_y[i], end_y[i]}; }
 };
 
 Vector3 load3(const Vec3* from) {
@@ -173,7 +173,7 @@ void draw_orthographic(const Plant& plant, const Camera& camera, Mask& mask) {
       prepare(LastRows(leaves, first).rows(), camera, half.half_width, mask, batch);
     for (std::size_t i = 0; i < count; ++i) {
       if (leaves.kind[first + i] != LeafKind::leaf) continue;
-      const PixelBox box = batch.box(i);
+      const PixelRectangle box = batch.box(i);
       if (!box.is_empty() && !is_covered(mask, box)) draw_leaf<false>(batch.map(i), half, box, mask);
     }
   }
@@ -203,7 +203,8 @@ LeafMap perspective_map(const Camera& camera, Vec3 stalk, Vec3 side, Vec3 axis) 
 }
 
 /// The pixels of the rectangle around a leaf; all pixels where it reaches behind the eye.
-PixelBox perspective_box(const Camera& camera, Vec3 stalk_m, Vec3 half_side, Vec3 axis, const Mask& mask) {
+PixelRectangle perspective_box(const Camera& camera, Vec3 stalk_m, Vec3 half_side, Vec3 axis,
+                               const Mask& mask) {
   float left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY, nearest_m = INFINITY;
   for (const Vec3 corner :
        {stalk_m - half_side, stalk_m + half_side, stalk_m + axis - half_side, stalk_m + axis + half_side}) {
@@ -224,7 +225,8 @@ void draw_perspective(const Plant& plant, const Camera& camera, Mask& mask) {
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     if (leaves.kind[i] != LeafKind::leaf) continue;
     const Vec3 side = leaves.side[i] * leaves.width_m[i], axis = leaves.axis[i] * leaves.length_m[i];
-    const PixelBox box = perspective_box(camera, leaves.position_m[i], side * half.half_width, axis, mask);
+    const PixelRectangle box =
+        perspective_box(camera, leaves.position_m[i], side * half.half_width, axis, mask);
     if (box.is_empty() || is_covered(mask, box)) continue;
     draw_leaf<true>(perspective_map(camera, leaves.position_m[i] - camera.position_m, side, axis), half, box,
                     mask);

@@ -12,10 +12,7 @@ namespace {
 class ScanlineRenderer final : public SilhouetteRenderer {
  public:
   void draw(const Plant& plant, const Camera& camera, Mask& mask) override {
-    if (mask.width_px() != camera.width_px || mask.height_px() != camera.height_px)
-      mask = Mask(camera.width_px, camera.height_px);
-    else
-      mask.clear();
+    mask.reset(camera.width_px, camera.height_px);
     draw_leaves(plant, camera, mask);
     draw_blossoms(plant, camera, mask);
     draw_stems(plant, camera, mask);

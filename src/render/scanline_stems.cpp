@@ -57,7 +57,7 @@ struct CurveColumns {
   alignas(64) Column cones;
   std::array<std::int32_t, kBatch + kMostLanes> begin_x, end_x, begin_y, end_y;  ///< pixels they can meet
 
-  PixelBox box(std::size_t i) const { return {begin_x[i], end_x[i], begin_y[i], end_y[i]}; }
+  PixelRectangle box(std::size_t i) const { return {begin_x[i], end_x[i], begin_y[i], end_y[i]}; }
 };
 
 /// Points of consecutive knots, or of their handles, in the picture.
@@ -269,7 +269,7 @@ void draw_orthographic(const Plant& plant, const Camera& camera, Mask& mask) {
         pen.draw_segment(k, mask);
         continue;
       }
-      const PixelBox box = curves.box(k - first);
+      const PixelRectangle box = curves.box(k - first);
       if (box.is_empty() || is_covered(mask, box)) continue;
       const float cones = curves.cones[k - first];
       if (cones <= 1)

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "image/mask.h"
+#include "render/pixel_rectangle.h"
 
 namespace espalier {
 
@@ -41,15 +42,8 @@ inline PixelRun centres_between(float low, float high, int size) {
           static_cast<int>(std::min(high + 0.5f, limit))};
 }
 
-/// Pixels [begin_x, end_x) × [begin_y, end_y).
-struct PixelBox {
-  int begin_x, end_x, begin_y, end_y;
-
-  bool is_empty() const { return begin_x >= end_x || begin_y >= end_y; }
-};
-
 /// True where all pixels of a box that is not empty are set: what falls there need not be drawn.
-inline bool is_covered(const Mask& mask, const PixelBox& box) {
+inline bool is_covered(const Mask& mask, const PixelRectangle& box) {
   for (int row = box.begin_y; row < box.end_y; ++row)
     if (!is_span_set(mask.row(row).data(), box.begin_x, box.end_x)) return false;
   return true;

@@ -11,6 +11,7 @@ namespace espalier {
 namespace {
 
 constexpr int kMostCones = 64;
+constexpr float kLargestStemPx = 1e6f;  ///< beyond it, float pixels are too coarse to draw
 
 /// A point of a stem in the picture. Differences of depth are lengths along the view, in pixels at that
 /// depth.

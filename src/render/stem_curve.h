@@ -7,7 +7,6 @@
 namespace espalier {
 
 constexpr float kStemTolerancePx = 0.125f;  ///< of silhouettes of curves
-constexpr float kLargestStemPx = 1e6f;      ///< beyond it, float pixels are too coarse to draw
 
 /// A whole number of cones, at least 1 and at most 64.
 int cone_count(float cones);

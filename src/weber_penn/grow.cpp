@@ -25,10 +25,25 @@ constexpr float kThinnestParent_m = 0.0001f;
 constexpr float kThinnestChild_m = 0.005f;
 constexpr float kShortestStem_m = 1e-5f;
 
+/// What a thread keeps from one plant to the next: memory only, nothing of the plant.
+struct GrowthMemory {
+  std::vector<GrowingStem> level, next_level;  ///< queues
+  StemBatch stem_batch;
+};
+
 class Growth {
  public:
-  Growth(const WeberPennParameters& p, const GrowthSettings& settings, Plant& plant)
-      : p_(p), settings_(settings), plant_(plant), batch_(p, plant.leaves) {}
+  Growth(const WeberPennParameters& p, const GrowthSettings& settings, GrowthMemory& memory, Plant& plant)
+      : p_(p),
+        settings_(settings),
+        plant_(plant),
+        stem_batch_(memory.stem_batch),
+        batch_(p, plant.leaves),
+        level_(memory.level),
+        next_level_(memory.next_level) {
+    level_.clear();
+    next_level_.clear();
+  }
 
   GrowthResult run(Seed seed);
 
@@ -49,9 +64,9 @@ class Growth {
   const WeberPennParameters& p_;
   const GrowthSettings& settings_;
   Plant& plant_;
-  StemBatch stem_batch_;
+  StemBatch& stem_batch_;
   LeafBatch batch_;
-  std::vector<GrowingStem> level_, next_level_;  ///< queues
+  std::vector<GrowingStem>&level_, &next_level_;
 };
 
 /// Adds the knots of one stem, its leaves and its queued children while the stem is walked.
@@ -217,7 +232,8 @@ GrowthResult grow_tree(const WeberPennParameters& parameters, Seed seed, const G
   plant.leaf_shape = static_cast<int>(parameters.leaf_shape);
   plant.blossom_shape = static_cast<int>(parameters.blossom_shape);
   plant.stems.first_knot.push_back(0);
-  return Growth(parameters, settings, plant).run(seed);
+  static thread_local GrowthMemory memory;
+  return Growth(parameters, settings, memory, plant).run(seed);
 }
 
 }  // namespace espalier

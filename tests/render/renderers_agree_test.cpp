@@ -25,10 +25,7 @@ Difference difference(const Plant& plant, const Camera& camera) {
   Mask traced, scanned;
   make_embree_renderer()->draw(plant, camera, traced);
   make_scanline_renderer()->draw(plant, camera, scanned);
-  Difference result{0, area_px(traced)};
-  for (std::size_t i = 0; i < traced.words().size(); ++i)
-    result.pixels += static_cast<std::size_t>(__builtin_popcountll(traced.words()[i] ^ scanned.words()[i]));
-  return result;
+  return {differing_px(traced, scanned), area_px(traced)};
 }
 
 Camera camera_of(const Plant& plant, const View& view, int width_px, int height_px) {

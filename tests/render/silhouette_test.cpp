@@ -1,12 +1,12 @@
-// Laws of silhouettes traced with Embree, on plants made by hand. Metres and pixels.
+// Laws of silhouettes, for every renderer, on plants made by hand. Metres and pixels.
 #include "render/silhouette.h"
 
 #include <gtest/gtest.h>
 #include <omp.h>
 
-#include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -29,21 +29,25 @@ Camera camera_at(int size_px, View view = {}) {
   return camera;
 }
 
-Mask silhouette(const Plant& plant, const Camera& camera) {
-  Mask mask;
-  make_embree_renderer()->draw(plant, camera, mask);
-  return mask;
-}
+using MakeRenderer = std::unique_ptr<SilhouetteRenderer> (*)();
+
+class Silhouette : public testing::TestWithParam<std::pair<const char*, MakeRenderer>> {
+ protected:
+  static std::unique_ptr<SilhouetteRenderer> make_renderer() { return GetParam().second(); }
+  static Mask silhouette(const Plant& plant, const Camera& camera) {
+    Mask mask;
+    make_renderer()->draw(plant, camera, mask);
+    return mask;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Renderers, Silhouette,
+                         testing::Values(std::pair{"embree", &make_embree_renderer},
+                                         std::pair{"scanline", &make_scanline_renderer}),
+                         [](const auto& test) { return test.param.first; });
 
 double area_m2(const Mask& mask, const Camera& camera) {
   return static_cast<double>(area_px(mask)) * camera.metres_per_px * camera.metres_per_px;
-}
-
-std::size_t differing_px(const Mask& a, const Mask& b) {
-  EXPECT_EQ(a.words().size(), b.words().size());
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < a.words().size(); ++i) count += std::popcount(a.words()[i] ^ b.words()[i]);
-  return count;
 }
 
 int lowest_row(const Mask& mask) {
@@ -81,14 +85,14 @@ Plant turned(Plant plant, float angle_deg) {
   return plant;
 }
 
-TEST(Silhouette, ACylinderFromTheSideIsARectangle) {
+TEST_P(Silhouette, ACylinderFromTheSideIsARectangle) {
   Plant plant;
   add_cylinder(plant, {0, 0, 0}, {0, 0, 6}, 0.5f);
   const Camera camera = camera_at(500);
   EXPECT_NEAR(area_m2(silhouette(plant, camera), camera), 6.0, 0.02 * 6);
 }
 
-TEST(Silhouette, ACylinderFromAboveIsADisc) {
+TEST_P(Silhouette, ACylinderFromAboveIsADisc) {
   Plant plant;
   add_cylinder(plant, {0, 0, 0}, {0, 0, 6}, 2);
   View view;
@@ -97,7 +101,7 @@ TEST(Silhouette, ACylinderFromAboveIsADisc) {
   EXPECT_NEAR(area_m2(silhouette(plant, camera), camera), 4 * std::numbers::pi, 0.02 * 12.6);
 }
 
-TEST(Silhouette, AConeIsATriangle) {
+TEST_P(Silhouette, AConeIsATriangle) {
   Plant plant;
   const Vec3 points[] = {{0, 0, 0}, {0, 0, 6}};
   const float radii[] = {2, 0};
@@ -106,7 +110,7 @@ TEST(Silhouette, AConeIsATriangle) {
   EXPECT_NEAR(area_m2(silhouette(plant, camera), camera), 12, 0.02 * 12);
 }
 
-TEST(Silhouette, ATrunkStandsFlatOnItsBase) {
+TEST_P(Silhouette, ATrunkStandsFlatOnItsBase) {
   Plant plant;
   add_cylinder(plant, {0, 0, 0}, {0, 0, 6}, 1.5f);
   const Camera camera = camera_at(500);
@@ -114,7 +118,7 @@ TEST(Silhouette, ATrunkStandsFlatOnItsBase) {
   EXPECT_NEAR(lowest_row(silhouette(plant, camera)), base_row, 1);
 }
 
-TEST(Silhouette, ABentStemFollowsItsCurve) {
+TEST_P(Silhouette, ABentStemFollowsItsCurve) {
   Plant plant;
   add_cylinder(plant, {-4, 0, 0}, {4, 0, 0}, 0.1f);
   plant.knots.handle_out_m[0] = {-4, 0, 8};
@@ -141,7 +145,7 @@ Mask edges_of(const Mask& mask) {
   return edges;
 }
 
-TEST(Silhouette, ConesAgreeWithTheSweptCurvesUpToEdgePixels) {
+TEST(EmbreeScene, ConesAgreeWithTheSweptCurvesUpToEdgePixels) {
   const Plant plant = random_tree(200, 0, 3);
   Plant bent = plant;
   for (std::size_t k = 0; k < bent.knots.size(); ++k) bent.knots.handle_out_m[k] += {0.05f, 0, 0.05f};
@@ -168,7 +172,7 @@ TEST(Silhouette, ConesAgreeWithTheSweptCurvesUpToEdgePixels) {
   }
 }
 
-TEST(Silhouette, AreaGrowsWithSquareOfScale) {
+TEST_P(Silhouette, AreaGrowsWithSquareOfScale) {
   const Plant plant = random_tree(100, 500, 1);
   const Camera camera = camera_at(800);
   const double small = area_m2(silhouette(scaled(plant, 0.4f), camera), camera);
@@ -176,7 +180,7 @@ TEST(Silhouette, AreaGrowsWithSquareOfScale) {
   EXPECT_NEAR(large / small, 4, 0.1);
 }
 
-TEST(Silhouette, OrthographicIsInvariantToMovingAlongTheView) {
+TEST_P(Silhouette, OrthographicIsInvariantToMovingAlongTheView) {
   const Plant plant = random_tree(100, 500, 1);
   const Camera camera = camera_at(256);
   const Mask here = silhouette(plant, camera);
@@ -184,7 +188,7 @@ TEST(Silhouette, OrthographicIsInvariantToMovingAlongTheView) {
     EXPECT_LE(differing_px(silhouette(moved(plant, camera.forward * metres), camera), here), 3u) << metres;
 }
 
-TEST(Silhouette, TurningPlantAndCameraTogetherChangesNothing) {
+TEST_P(Silhouette, TurningPlantAndCameraTogetherChangesNothing) {
   const Plant plant = random_tree(100, 500, 1);
   for (const float elevation_deg : {0.0f, 25.0f}) {
     View view;
@@ -197,7 +201,7 @@ TEST(Silhouette, TurningPlantAndCameraTogetherChangesNothing) {
   }
 }
 
-TEST(Silhouette, PerspectiveFromFarAwayTendsToOrthographic) {
+TEST_P(Silhouette, PerspectiveFromFarAwayTendsToOrthographic) {
   const Plant plant = random_tree(100, 500, 1);
   const Vec3 base{0, 0, 0};
   View view;
@@ -219,7 +223,7 @@ bool is_in_triangle(const LeafOutline& outline, const std::array<std::uint32_t, 
   return side(a, b) >= 0 && side(b, c) >= 0 && side(c, a) >= 0;
 }
 
-TEST(Silhouette, ALeafIsItsTriangles) {
+TEST_P(Silhouette, ALeafIsItsTriangles) {
   for (int shape = 1; shape <= 10; ++shape) {
     SCOPED_TRACE(shape);
     Plant plant;
@@ -240,13 +244,13 @@ TEST(Silhouette, ALeafIsItsTriangles) {
   }
 }
 
-TEST(Silhouette, ALeafOnEdgeIsNotSeen) {
+TEST_P(Silhouette, ALeafOnEdgeIsNotSeen) {
   Plant plant;
   add_leaf(plant, {0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 8, 8);
   EXPECT_EQ(area_px(silhouette(plant, camera_at(256))), 0u);
 }
 
-TEST(Silhouette, ALeafFromTheSideIsAsWideAsItsCosine) {
+TEST_P(Silhouette, ALeafFromTheSideIsAsWideAsItsCosine) {
   Plant plant;
   plant.leaf_shape = 9;
   const float angle = std::numbers::pi_v<float> / 3;
@@ -255,7 +259,7 @@ TEST(Silhouette, ALeafFromTheSideIsAsWideAsItsCosine) {
   EXPECT_NEAR(area_m2(silhouette(plant, camera), camera), 64 * 0.5, 0.64);
 }
 
-TEST(Silhouette, ABlossomOpensAlongItsAxis) {
+TEST_P(Silhouette, ABlossomOpensAlongItsAxis) {
   for (int shape = 1; shape <= 3; ++shape) {
     Plant plant;
     plant.blossom_shape = shape;
@@ -269,7 +273,7 @@ TEST(Silhouette, ABlossomOpensAlongItsAxis) {
   }
 }
 
-TEST(Silhouette, AnEmptyPlantIsAnEmptyMaskOfTheCamerasSize) {
+TEST_P(Silhouette, AnEmptyPlantIsAnEmptyMaskOfTheCamerasSize) {
   for (const auto projection : {Projection::orthographic, Projection::perspective}) {
     View view;
     view.projection = projection;
@@ -280,7 +284,7 @@ TEST(Silhouette, AnEmptyPlantIsAnEmptyMaskOfTheCamerasSize) {
   }
 }
 
-TEST(Silhouette, EverySizeFromOnePixelUpIsFilledByWhatCoversIt) {
+TEST_P(Silhouette, EverySizeFromOnePixelUpIsFilledByWhatCoversIt) {
   Plant plant;
   plant.leaf_shape = 9;
   add_leaf(plant, {0, 0, -50}, {0, 0, 1}, {1, 0, 0}, 100, 100);
@@ -291,7 +295,7 @@ TEST(Silhouette, EverySizeFromOnePixelUpIsFilledByWhatCoversIt) {
   }
 }
 
-TEST(Silhouette, DegenerateStemsAndLeavesAreLeftOut) {
+TEST_P(Silhouette, DegenerateStemsAndLeavesAreLeftOut) {
   Plant plant;
   add_cylinder(plant, {0, 0, 0}, {0, 0, 6}, 0.5f);
   const Camera camera = camera_at(256);
@@ -314,7 +318,7 @@ TEST(Silhouette, DegenerateStemsAndLeavesAreLeftOut) {
   EXPECT_EQ(silhouette(plant, camera), alone);
 }
 
-TEST(Silhouette, AStemWithARepeatedPointStaysWhole) {
+TEST_P(Silhouette, AStemWithARepeatedPointStaysWhole) {
   Plant plant;
   const Vec3 points[] = {{0, 0, 0}, {0, 0, 3}, {0, 0, 3}, {0, 0, 6}};
   const float radii[] = {0.5f, 0.5f, 0.5f, 0.5f};
@@ -323,7 +327,7 @@ TEST(Silhouette, AStemWithARepeatedPointStaysWhole) {
   EXPECT_NEAR(area_m2(silhouette(plant, camera), camera), 6.0, 0.02 * 6);
 }
 
-TEST(Silhouette, AStemWhoseHandlesLieOnItsKnotsIsStraight) {
+TEST_P(Silhouette, AStemWhoseHandlesLieOnItsKnotsIsStraight) {
   Plant plant;
   add_cylinder(plant, {0, 0, 0}, {0, 0, 6}, 0.5f);
   const Mask straight = silhouette(plant, camera_at(256));
@@ -331,8 +335,8 @@ TEST(Silhouette, AStemWhoseHandlesLieOnItsKnotsIsStraight) {
   EXPECT_EQ(silhouette(plant, camera_at(256)), straight);
 }
 
-TEST(Silhouette, AUsedRendererDrawsAsAFreshOne) {
-  const auto renderer = make_embree_renderer();
+TEST_P(Silhouette, AUsedRendererDrawsAsAFreshOne) {
+  const auto renderer = make_renderer();
   Mask mask;
   for (const int stems : {100, 3, 300, 0, 50}) {
     const Plant plant = random_tree(stems, stems * 5, static_cast<Seed>(stems));
@@ -343,7 +347,7 @@ TEST(Silhouette, AUsedRendererDrawsAsAFreshOne) {
   EXPECT_EQ(area_px(mask), 0u);
 }
 
-TEST(Silhouette, TheDrawnPlantMayVanish) {
+TEST(EmbreeScene, TheDrawnPlantMayVanish) {
   EmbreeScene scene;
   const Camera camera = camera_at(128);
   Mask with_plant, without_plant;
@@ -356,11 +360,11 @@ TEST(Silhouette, TheDrawnPlantMayVanish) {
   EXPECT_EQ(with_plant, without_plant);
 }
 
-std::vector<Mask> draw_all(int threads) {
+std::vector<Mask> draw_all(int threads, MakeRenderer make_renderer) {
   std::vector<Mask> masks(24);
 #pragma omp parallel num_threads(threads)
   {
-    const auto renderer = make_embree_renderer();
+    const auto renderer = make_renderer();
 #pragma omp for schedule(dynamic, 1)
     for (int i = 0; i < 24; ++i)
       renderer->draw(random_tree(60, 400, static_cast<Seed>(i)), camera_at(200),
@@ -369,7 +373,9 @@ std::vector<Mask> draw_all(int threads) {
   return masks;
 }
 
-TEST(Silhouette, TwoThreadsDrawTheSameBitsAsOne) { EXPECT_EQ(draw_all(2), draw_all(1)); }
+TEST_P(Silhouette, TwoThreadsDrawTheSameBitsAsOne) {
+  EXPECT_EQ(draw_all(2, GetParam().second), draw_all(1, GetParam().second));
+}
 
 }  // namespace
 }  // namespace espalier
