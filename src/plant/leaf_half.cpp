@@ -21,6 +21,9 @@ LeafHalf right_half(const LeafOutline& outline) {
     if (a.y > b.y) std::swap(a, b);
     half.edges.push_back({a.y, b.y, a.x, (b.x - a.x) / (b.y - a.y)});
   }
+  half.is_chain = std::ranges::adjacent_find(half.edges, [](const auto& a, const auto& b) {
+                    return a.y1 != b.y0;
+                  }) == half.edges.end();
   return half;
 }
 

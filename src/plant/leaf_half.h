@@ -10,6 +10,7 @@ struct LeafHalf {
     float y0, y1, x0, slope;
   };
   std::vector<Edge> edges;
+  bool is_chain = false;  ///< edges come from bottom to top, each from the end of the one before
   float half_width = 0;
 
   /// x (not negative) and y of the outline: inside where an odd number of edges lie to the right.

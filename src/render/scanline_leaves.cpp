@@ -1,7 +1,8 @@
 // A leaf's outline has coordinates x across and y along. A pixel maps to them linearly (orthographic), or as
 // a quotient (perspective); inside is then an odd number of crossed edges, as in the Embree reference. Most
-// leaves of a crown fall on pixels that are set: those are left at once. Vector code is written once with
-// Highway, with products and sums rounded apart, so that all instruction sets give the same bits.
+// leaves of a crown are a few pixels, most of them set already: only pixels that are not yet set are looked
+// at, those of many small leaves together. Vector code is written once with Highway, with products and sums
+// rounded apart, so that all instruction sets give the same bits.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/scanline_leaves.cpp"
 #include "render/scanline_leaves.h"
@@ -10,81 +11,16 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "plant/leaf_half.h"
-#include "render/span.h"
+#include "render/leaf_pixels-inl.h"
 #include "render/span_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace espalier {
 namespace HWY_NAMESPACE {
 namespace {
-
-/// x = (x[0] + x[1]·column + x[2]·row) / w, with column and row at pixel centres; y likewise. In an
-/// orthographic picture w = 1. A leaf in front of a perspective camera has w > 0.
-struct LeafMap {
-  float x[3], y[3], w[3];
-};
-
-/// Which of the pixels from `column` on are inside, one bit a lane.
-template <bool kPerspective>
-std::uint64_t inside_bits(const LeafMap& map, const LeafHalf& half, float column, float row) {
-  const Floats d;
-  const Vector columns = hn::Add(hn::Set(d, column), hn::Iota(d, 0.0f));
-  const auto linear = [&](const float(&a)[3]) {
-    return hn::Add(hn::Mul(columns, hn::Set(d, a[1])), hn::Set(d, a[0] + a[2] * row));
-  };
-  Vector x = linear(map.x), y = linear(map.y);
-  auto inside = hn::FirstN(d, 0);
-  auto in_front = hn::FirstN(d, hn::Lanes(d));
-  if (kPerspective) {
-    const Vector w = linear(map.w);
-    in_front = hn::Gt(w, hn::Zero(d));
-    x = hn::Div(x, w);
-    y = hn::Div(y, w);
-  }
-  x = hn::Abs(x);
-  for (const LeafHalf::Edge& edge : half.edges) {
-    const Vector from_start = hn::Sub(y, hn::Set(d, edge.y0));
-    const Vector edge_x = hn::Add(hn::Set(d, edge.x0), hn::Mul(hn::Set(d, edge.slope), from_start));
-    const auto beside = hn::And(hn::Ge(y, hn::Set(d, edge.y0)), hn::Lt(y, hn::Set(d, edge.y1)));
-    inside = hn::Xor(inside, hn::And(beside, hn::Lt(x, edge_x)));
-  }
-  std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(d, hn::And(inside, in_front), bits);
-  return bits[0];
-}
-
-template <bool kPerspective>
-void draw_leaf(const LeafMap& map, const LeafHalf& half, const PixelRectangle& box, Mask& mask) {
-  constexpr Floats d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  for (int row = box.begin_y; row < box.end_y; ++row) {
-    std::uint64_t* words = mask.row(row).data();
-    for (int column = box.begin_x; column < box.end_x; column += lanes) {
-      const int end = std::min(column + lanes, box.end_x);
-      if (is_span_set(words, column, end)) continue;
-      const std::uint64_t inside = inside_bits<kPerspective>(map, half, static_cast<float>(column) + 0.5f,
-                                                             static_cast<float>(row) + 0.5f) &
-                                   bit_run(0, end - column);
-      words[column >> 6] |= inside << (column & 63);
-      if ((column & 63) + (end - column) > 64) words[(column >> 6) + 1] |= inside >> (64 - (column & 63));
-    }
-  }
-}
-
-/// Numbers of up to 8 leaves, by lane.
-struct OrthographicBatch {
-  HWY_ALIGN float x[kMostLanes], x_by_column[kMostLanes], x_by_row[kMostLanes];
-  HWY_ALIGN float y[kMostLanes], y_by_column[kMostLanes], y_by_row[kMostLanes];
-  HWY_ALIGN std::int32_t begin_x[kMostLanes], end_x[kMostLanes], begin_y[kMostLanes], end_y[kMostLanes];
-
-  LeafMap map(std::size_t i) const {
-    return {{x[i], x_by_column[i], x_by_row[i]}, {y[i], y_by_column[i], y_by_row[i]}, {1, 0, 0}};
-  }
-  PixelRectangle box(std::size_t i) const { return {begin_x[i], end_x[i], begin_y[i], end_y[i]}; }
-};
 
 Vector3 load3(const Vec3* from) {
   const Floats d;
@@ -127,9 +63,10 @@ struct LastRows {
   LeafRows rows() const { return {position_m, axis, side, length_m, width_m}; }
 };
 
-/// Inverts (column, row) = base + x·side + y·axis. A leaf seen on edge gets coordinates that are not numbers.
+/// Inverts (column, row) = base + x·side + y·axis for a vector of leaves, columns [at, …). A leaf seen on
+/// edge gets coordinates that are not numbers.
 void prepare(const LeafRows& leaves, const Camera& camera, float half_width, const Mask& mask,
-             OrthographicBatch& batch) {
+             LeafColumns& columns, std::size_t at) {
   const Floats d;
   const Vec3 right = camera.right * (1 / camera.metres_per_px),
              down = camera.up * (-1 / camera.metres_per_px);
@@ -143,62 +80,85 @@ void prepare(const LeafRows& leaves, const Camera& camera, float half_width, con
   const Vector inverse = hn::Div(hn::Set(d, 1.0f), hn::Sub(hn::Mul(side_x, axis_y), hn::Mul(side_y, axis_x)));
   const Vector x_by_column = hn::Mul(axis_y, inverse), x_by_row = hn::Neg(hn::Mul(axis_x, inverse));
   const Vector y_by_column = hn::Neg(hn::Mul(side_y, inverse)), y_by_row = hn::Mul(side_x, inverse);
-  hn::Store(x_by_column, d, batch.x_by_column);
-  hn::Store(x_by_row, d, batch.x_by_row);
-  hn::Store(y_by_column, d, batch.y_by_column);
-  hn::Store(y_by_row, d, batch.y_by_row);
-  hn::Store(hn::Neg(hn::Add(hn::Mul(base_x, x_by_column), hn::Mul(base_y, x_by_row))), d, batch.x);
-  hn::Store(hn::Neg(hn::Add(hn::Mul(base_x, y_by_column), hn::Mul(base_y, y_by_row))), d, batch.y);
   const Vector half = hn::Set(d, half_width);
   const Vector reach_x = hn::Mul(hn::Abs(side_x), half), reach_y = hn::Mul(hn::Abs(side_y), half);
   const Vector zero = hn::Zero(d);
   store_run(hn::Sub(hn::Add(base_x, hn::Min(axis_x, zero)), reach_x),
-            hn::Add(hn::Add(base_x, hn::Max(axis_x, zero)), reach_x), mask.width_px(), batch.begin_x,
-            batch.end_x);
+            hn::Add(hn::Add(base_x, hn::Max(axis_x, zero)), reach_x), mask.width_px(), &columns.begin_x[at],
+            &columns.end_x[at]);
   store_run(hn::Sub(hn::Add(base_y, hn::Min(axis_y, zero)), reach_y),
-            hn::Add(hn::Add(base_y, hn::Max(axis_y, zero)), reach_y), mask.height_px(), batch.begin_y,
-            batch.end_y);
+            hn::Add(hn::Add(base_y, hn::Max(axis_y, zero)), reach_y), mask.height_px(), &columns.begin_y[at],
+            &columns.end_y[at]);
+  const auto from_first = [&](Vector base, const auto& first) {
+    const auto pixel = hn::Load(hn::RebindToSigned<Floats>(), &first[at]);
+    return hn::Sub(hn::Add(hn::ConvertTo(d, pixel), set(0.5f)), base);
+  };
+  const Vector column = from_first(base_x, columns.begin_x), row = from_first(base_y, columns.begin_y);
+  hn::Store(x_by_column, d, &columns.x_by_column[at]);
+  hn::Store(x_by_row, d, &columns.x_by_row[at]);
+  hn::Store(y_by_column, d, &columns.y_by_column[at]);
+  hn::Store(y_by_row, d, &columns.y_by_row[at]);
+  hn::Store(hn::Add(hn::Mul(column, x_by_column), hn::Mul(row, x_by_row)), d, &columns.x[at]);
+  hn::Store(hn::Add(hn::Mul(column, y_by_column), hn::Mul(row, y_by_row)), d, &columns.y[at]);
+}
+
+/// Leaves [first, first + kMost) or to the end; how many.
+std::size_t prepare_some(const Leaves& leaves, std::size_t first, const Camera& camera, float half_width,
+                         const Mask& mask, LeafColumns& columns) {
+  const std::size_t count = std::min(LeafColumns::kMost, leaves.size() - first), lanes = hn::Lanes(Floats());
+  for (std::size_t at = 0; at < count; at += lanes) {
+    if (at + lanes <= count)
+      prepare(rows_from(leaves, first + at), camera, half_width, mask, columns, at);
+    else
+      prepare(LastRows(leaves, first + at).rows(), camera, half_width, mask, columns, at);
+  }
+  return count;
 }
 
 void draw_orthographic(const Plant& plant, const Camera& camera, Mask& mask) {
   const Leaves& leaves = plant.leaves;
   const LeafHalf& half = leaf_half(plant.leaf_shape);
-  const std::size_t lanes = hn::Lanes(Floats());
-  OrthographicBatch batch;
-  for (std::size_t first = 0; first < leaves.size(); first += lanes) {
-    const std::size_t count = std::min(lanes, leaves.size() - first);
-    if (count == lanes)
-      prepare(rows_from(leaves, first), camera, half.half_width, mask, batch);
-    else
-      prepare(LastRows(leaves, first).rows(), camera, half.half_width, mask, batch);
+  LeafColumns columns;
+  PixelQueue queue(mask);
+  std::array<std::int32_t, LeafColumns::kMost> unset;
+  for (std::size_t first = 0; first < leaves.size(); first += LeafColumns::kMost) {
+    const std::size_t count = prepare_some(leaves, first, camera, half.half_width, mask, columns);
+    for (std::size_t at = 0; at < count; at += hn::Lanes(Floats()))
+      queue.unset_in_first_tiles(columns, at, &unset[at]);
     for (std::size_t i = 0; i < count; ++i) {
       if (leaves.kind[first + i] != LeafKind::leaf) continue;
-      const PixelRectangle box = batch.box(i);
-      if (!box.is_empty() && !is_covered(mask, box)) draw_leaf<false>(batch.map(i), half, box, mask);
+      const PixelRectangle box = columns.box(i);
+      if (std::max(box.end_x - box.begin_x, box.end_y - box.begin_y) <= PixelQueue::kWidestPx)
+        queue.add(box, unset[i], i);
+      else if (!is_covered(mask, box))
+        draw_leaf<false>(columns.map(i), half, box, mask);
     }
+    queue.draw(columns, half);
   }
 }
 
-/// v·(direction of the ray through (column, row)), which is linear in both.
-void set_linear(const Camera& camera, Vec3 v, float (&a)[3]) {
+/// v·(direction of the ray through a pixel), which is linear in its column and row, counted from `first`.
+void set_linear(const Camera& camera, const PixelRectangle& first, Vec3 v, float (&a)[3]) {
   const float by_column = camera.metres_per_px * dot(v, camera.right);
   const float by_row = -camera.metres_per_px * dot(v, camera.up);
   a[1] = by_column;
   a[2] = by_row;
-  a[0] = dot(v, camera.forward) - by_column * camera.center_x_px - by_row * camera.center_y_px;
+  a[0] = dot(v, camera.forward) +
+         by_column * (static_cast<float>(first.begin_x) + 0.5f - camera.center_x_px) +
+         by_row * (static_cast<float>(first.begin_y) + 0.5f - camera.center_y_px);
 }
 
 /// A ray d meets the leaf's plane at its point x = (stalk·normal · d·x' − stalk·x' · d·normal) / d·normal,
 /// where stalk is seen from the eye and x' is the vector dual to the leaf's side; y likewise.
-LeafMap perspective_map(const Camera& camera, Vec3 stalk, Vec3 side, Vec3 axis) {
+LeafMap perspective_map(const Camera& camera, const PixelRectangle& box, Vec3 stalk, Vec3 side, Vec3 axis) {
   const Vec3 normal = cross(side, axis);
   const float inverse = 1 / dot(normal, normal), distance = dot(stalk, normal);
   const Vec3 x_dual = cross(axis, normal) * inverse, y_dual = cross(normal, side) * inverse;
   const float sign = distance < 0 ? -1.0f : 1.0f;
   LeafMap map;
-  set_linear(camera, (x_dual * distance - normal * dot(stalk, x_dual)) * sign, map.x);
-  set_linear(camera, (y_dual * distance - normal * dot(stalk, y_dual)) * sign, map.y);
-  set_linear(camera, normal * sign, map.w);
+  set_linear(camera, box, (x_dual * distance - normal * dot(stalk, x_dual)) * sign, map.x);
+  set_linear(camera, box, (y_dual * distance - normal * dot(stalk, y_dual)) * sign, map.y);
+  set_linear(camera, box, normal * sign, map.w);
   return map;
 }
 
@@ -228,8 +188,8 @@ void draw_perspective(const Plant& plant, const Camera& camera, Mask& mask) {
     const PixelRectangle box =
         perspective_box(camera, leaves.position_m[i], side * half.half_width, axis, mask);
     if (box.is_empty() || is_covered(mask, box)) continue;
-    draw_leaf<true>(perspective_map(camera, leaves.position_m[i] - camera.position_m, side, axis), half, box,
-                    mask);
+    draw_leaf<true>(perspective_map(camera, box, leaves.position_m[i] - camera.position_m, side, axis), half,
+                    box, mask);
   }
 }
 

@@ -86,7 +86,8 @@ bool ChildPlacer::next_run(ChildRun& run) {
   } else {
     run.roll_deg = rotation_deg_ + rotate;
     run.roll_step_deg = rotate;
-    rotation_deg_ = std::fmod(rotation_deg_ + static_cast<float>(run.count) * rotate, 360.f);
+    rotation_deg_ += static_cast<float>(run.count) * rotate;
+    rotation_deg_ -= 360 * static_cast<float>(static_cast<int>(rotation_deg_ * (1.f / 360)));
   }
   return true;
 }
