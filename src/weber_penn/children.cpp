@@ -48,6 +48,8 @@ void ChildPlacer::begin(const GrowingStem& stem, const Segment& segment) {
   before_ = reached_;
   inverse_rate_ = 1 / rate_;
   reached_ += rate_;
+  constexpr float kRounding = 1e-4f;  // of a running count of up to some hundreds in float
+  whole_ = static_cast<int>(reached_ + kRounding);
 }
 
 bool ChildPlacer::next(ChildSite& site) {
@@ -61,19 +63,13 @@ bool ChildPlacer::next_slot(ChildSlot& slot) {
   return distribution_ > 1 ? next_in_whorl(slot) : next_along(slot);
 }
 
-/// The running count has passed the next child.
-bool ChildPlacer::has_whole_child() const {
-  constexpr float kRounding = 1e-4f;  // of a running count of up to some hundreds in float
-  return static_cast<float>(placed_ + 1) - reached_ <= kRounding;
-}
-
 bool ChildPlacer::next_run(ChildRun& run) {
   const float rotate = p_.rotate[child_level_];
   if (count_ < 0 || distribution_ > 1 || p_.rotate_v[child_level_] != 0 || !(rate_ > 0)) return false;
   run.first = placed_;
-  while (has_whole_child()) ++placed_;
-  run.count = placed_ - run.first;
-  if (run.count == 0) return false;
+  run.count = whole_ - placed_;
+  if (run.count <= 0) return false;
+  placed_ = whole_;
   const float shift = distribution_ * inverse_rate_;
   const bool starts_odd = run.first % 2 == 1;
   run.t_start = (static_cast<float>(run.first) - before_) * inverse_rate_ - (starts_odd ? shift : 0);
@@ -95,7 +91,7 @@ bool ChildPlacer::next_run(ChildRun& run) {
 bool ChildPlacer::next_along(ChildSlot& slot) {
   if (!(rate_ > 0)) return false;
   const float missing = static_cast<float>(placed_ + 1) - reached_;
-  const bool is_whole = has_whole_child();
+  const bool is_whole = placed_ < whole_;
   const bool relaxed_last = p_.relaxed_counts > 0 && last_segment_ && missing < 1;
   if (!is_whole && !relaxed_last) return false;
   const float shift = placed_ % 2 == 1 ? distribution_ : 0;  // 1: opposite the one before it

@@ -61,7 +61,6 @@ class ChildPlacer {
   bool next_run(ChildRun& run);
 
  private:
-  bool has_whole_child() const;
   bool next_along(ChildSlot& slot);
   bool next_in_whorl(ChildSlot& slot);
   bool next_in_fan(ChildSite& site);
@@ -80,6 +79,7 @@ class ChildPlacer {
   float distribution_;                 ///< branch_dist
   float reached_ = 0, before_ = 0;     ///< running count after and before this segment
   float rate_ = 0, inverse_rate_ = 0;  ///< children per segment
+  int whole_ = 0;                      ///< children that the running count has passed
   int placed_ = 0;                     ///< children so far
   int whorl_ = 0, in_whorl_ = 0;
   float rotation_deg_;

@@ -195,7 +195,7 @@ double Growth::over_budget_factor() const {
   const double stems =
       static_cast<double>(plant_.stems.size() + next_level_.size()) / settings_.budget.max_stems;
   const double leaves =
-      (static_cast<double>(plant_.leaves.size()) + batch_.noted()) / settings_.budget.max_leaves;
+      (static_cast<double>(plant_.leaves.size()) + batch_.waiting()) / settings_.budget.max_leaves;
   return std::max(stems, leaves);
 }
 

@@ -1,4 +1,4 @@
-// Placing noted leaves, see leaf_batch.h. Equations as in children.cpp and leaf_placement.cpp.
+// Placing leaves, see leaf_batch.h. Equations as in children.cpp and leaf_placement.cpp.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "weber_penn/leaf_batch.cpp"
 #include <hwy/foreach_target.h>
@@ -16,55 +16,31 @@ namespace espalier {
 namespace HWY_NAMESPACE {
 namespace {
 
-using Indices = hn::RebindToSigned<Floats>;
+/// A number that all lanes share: they are on one segment.
+Vector3 set3(Vec3 v) { return {set(v.x), set(v.y), set(v.z)}; }
 
-/// Gathers one member of each lane's row.
-class RowLanes {
- public:
-  RowLanes(const LeafNotes& notes, int first)
-      : rows_(&notes.row[0].start_m.x),
-        index_(hn::Mul(hn::LoadU(Indices(), &notes.row_index[static_cast<std::size_t>(first)]),
-                       hn::Set(Indices(), kStride))) {}
-
-  Vector number(float LeafRow::*member) const {
-    static const LeafRow kRow{};
-    return at(static_cast<int>(&(kRow.*member) - &kRow.start_m.x));
-  }
-  Vector3 vector(Vec3 LeafRow::*member) const {
-    static const LeafRow kRow{};
-    const int column = static_cast<int>(&(kRow.*member).x - &kRow.start_m.x);
-    return {at(column), at(column + 1), at(column + 2)};
-  }
-
- private:
-  static constexpr int kStride = sizeof(LeafRow) / sizeof(float);
-  Vector at(int column) const { return hn::GatherIndex(Floats(), rows_ + column, index_); }
-
-  const float* rows_;
-  hn::Vec<Indices> index_;
+struct OnCurve {
+  Vector3 point, tangent;
 };
 
-struct Heading {
-  Vector3 point, forward;
-};
-
-/// Point and tangent of the segments' curves at t.
-Heading on_curve(const RowLanes& segment, Vector t) {
-  const Vector3 a = segment.vector(&LeafRow::start_m), b = segment.vector(&LeafRow::handle_out_m),
-                c = segment.vector(&LeafRow::handle_in_m), e = segment.vector(&LeafRow::end_m);
+/// Points of the segment's curve, and tangents of any length but 0.
+OnCurve on_curve(const Segment& segment, Vector t) {
+  const Vector3 a = set3(segment.start_m), b = set3(segment.handle_out_m), c = set3(segment.handle_in_m),
+                e = set3(segment.end_m);
   const Vector u = hn::Sub(set(1), t), uu = hn::Mul(u, u), tt = hn::Mul(t, t), ut = hn::Mul(u, t);
   const Vector3 derivative = (b - a) * uu + (c - b) * hn::Mul(set(2), ut) + (e - c) * tt;
+  const auto has_direction = hn::Gt(dot(derivative, derivative), set(1e-24f));
   return {a * hn::Mul(uu, u) + b * hn::Mul(set(3), hn::Mul(uu, t)) + c * hn::Mul(set(3), hn::Mul(u, tt)) +
               e * hn::Mul(tt, t),
-          normalized(derivative, segment.vector(&LeafRow::heading))};
+          choose(has_direction, derivative, set3(segment.end.forward))};
 }
 
 /// stem_radius_m for taper < 2 [stem_radius.cpp].
-Vector radius_at(const RowLanes& segment, Vector z, float taper) {
-  const Vector base = segment.number(&LeafRow::base_radius_m);
+Vector radius_at(const GrowingStem& stem, Vector z, float taper) {
+  const Vector base = set(stem.radius_m);
   const Vector cone = hn::Mul(base, hn::Sub(set(1), hn::Mul(set(taper < 1 ? taper : 2 - taper), z)));
   if (taper < 1) return cone;
-  const Vector to_tip = hn::Mul(hn::Sub(set(1), z), segment.number(&LeafRow::stem_length_m));
+  const Vector to_tip = hn::Mul(hn::Sub(set(1), z), set(stem.length_m));
   const Vector across = hn::Sub(to_tip, cone);
   const Vector squared = hn::Sub(hn::Mul(cone, cone), hn::Mul(across, across));
   return hn::IfThenElse(hn::Ge(to_tip, cone), cone, hn::Sqrt(hn::Max(squared, set(0))));
@@ -80,77 +56,136 @@ Vector down_angle_at(Vector z, Vector jitter, const WeberPennParameters& p, int 
   return hn::Mul(shaped, hn::Add(set(1), hn::Mul(set(0.1f), jitter)));
 }
 
-struct Placed {
-  Vector3 position, axis, side;
+/// Along the segment, in [0, 1]; `k` counts leaves of the run.
+Vector run_position(const ChildRun& run, Vector k, hn::Mask<Floats> is_odd) {
+  const Vector even = hn::Add(set(run.t_start), hn::Mul(k, set(run.t_step)));
+  const Vector t = hn::IfThenElse(is_odd, hn::Add(even, set(run.t_odd)), even);
+  return hn::Min(hn::Max(t, set(0)), set(1));
+}
+
+Vector run_roll_deg(const ChildRun& run, Vector k, hn::Mask<Floats> is_odd) {
+  const Vector roll = hn::Add(set(run.roll_deg), hn::Mul(k, set(run.roll_step_deg)));
+  return run.alternate ? hn::IfThenElse(is_odd, hn::Neg(roll), roll) : roll;
+}
+
+/// Of the down angle, in [-1, 1).
+Vector draw_jitter(const GrowingStem& stem, int first_child, int count, const WeberPennParameters& p) {
+  if (p.down_angle_v[level_index(stem.level + 1)] == 0) return set(0);
+  alignas(64) std::array<float, kMostLanes> drawn{};
+  for (int i = 0; i < count; ++i)
+    drawn[static_cast<std::size_t>(i)] = draw_signed(stem.key, Draw::child_down_angle, first_child + i);
+  return hn::Load(Floats(), drawn.data());
+}
+
+using Columns3 = WaitingLeaves::Columns3;
+
+void store(const Vector3& v, Columns3& columns, std::size_t at) {
+  const Floats d;
+  hn::StoreU(v.x, d, &columns.x[at]);
+  hn::StoreU(v.y, d, &columns.y[at]);
+  hn::StoreU(v.z, d, &columns.z[at]);
+}
+
+Vector3 load(const Columns3& columns, std::size_t at) {
+  const Floats d;
+  return {hn::Load(d, &columns.x[at]), hn::Load(d, &columns.y[at]), hn::Load(d, &columns.z[at])};
+}
+
+/// Puts the leaves of a run on their segment, grown to this share of leaf_scale. Writes whole vectors: up to
+/// 7 rows more than there are leaves.
+void add_run(const GrowingStem& stem, const Segment& segment, const ChildRun& run, float growth,
+             const WeberPennParameters& p, WaitingLeaves& leaves) {
+  const hn::RebindToSigned<Floats> di;
+  const int lanes = static_cast<int>(hn::Lanes(di)), level = level_index(stem.level);
+  const Vector3 across = set3(espalier::cross(segment.end.forward, segment.end.right));
+  for (int first = 0; first < run.count; first += lanes) {
+    const auto k = hn::Iota(di, first);
+    const Vector along = hn::ConvertTo(Floats(), k);
+    const auto is_odd = hn::MaskFromVec(hn::BitCast(Floats(), hn::Neg(hn::And(k, hn::Set(di, 1)))));
+    const Vector t = run_position(run, along, is_odd);
+    const Vector z = hn::Add(set(segment.z_start), hn::Mul(t, set(segment.z_end - segment.z_start)));
+    const Vector jitter = draw_jitter(stem, run.first + first, std::min(lanes, run.count - first), p);
+    const OnCurve curve = on_curve(segment, t);
+    const auto at = static_cast<std::size_t>(leaves.count + first);
+    store(curve.point, leaves.point, at);
+    store(curve.tangent, leaves.tangent, at);
+    store(across, leaves.across, at);
+    hn::StoreU(radius_at(stem, z, p.taper[level]), Floats(), &leaves.stem_radius_m[at]);
+    hn::StoreU(run_roll_deg(run, along, is_odd), Floats(), &leaves.roll_deg[at]);
+    hn::StoreU(down_angle_at(z, jitter, p, level_index(stem.level + 1), p.base_size[level]), Floats(),
+               &leaves.down_deg[at]);
+    hn::StoreU(set(growth), Floats(), &leaves.growth[at]);
+    std::fill_n(&leaves.kind[at], kMostLanes, LeafKind::leaf);
+  }
+}
+
+/// ChildPlacer::frame_at: unit tangents, and `right` before the roll.
+void make_frames(WaitingLeaves& leaves, std::size_t at) {
+  const Vector3 along = load(leaves.tangent, at);
+  const Vector3 tangent = along * hn::Div(set(1), hn::Sqrt(dot(along, along)));
+  const Vector3 right = cross(load(leaves.across, at), tangent);
+  const Vector norm = hn::Sqrt(dot(right, right));
+  const auto has_direction = hn::Gt(norm, set(1e-12f));
+  Vector3 unit = right * hn::Div(set(1), norm);
+  if (!hn::AllTrue(Floats(), has_direction))
+    unit = choose(has_direction, unit,
+                  normalized(cross(tangent, {set(0), set(1), set(0)}), {set(1), set(0), set(0)}));
+  store(tangent, leaves.tangent, at);
+  store(unit, leaves.right, at);
+}
+
+void store(const Vector3& v, Vec3* to) { hn::StoreInterleaved3(v.x, v.y, v.z, Floats(), &to->x); }
+
+/// Where leaves go in the plant.
+struct LeafRows {
+  Vec3 *position_m, *axis, *side;
 };
+
+/// Rolls the frames, and turns the leaves down from them.
+void turn_leaves(const WaitingLeaves& leaves, std::size_t at, const LeafRows& to) {
+  const Floats d;
+  const Vector3 tangent = load(leaves.tangent, at), flat = load(leaves.right, at);
+  const SineCosine roll = sine_cosine_deg(hn::Load(d, &leaves.roll_deg[at])),
+                   down = sine_cosine_deg(hn::Load(d, &leaves.down_deg[at]));
+  const Vector3 right = flat * roll.cosine + cross(tangent, flat) * roll.sine;
+  const Vector3 outward = cross(tangent, right);
+  store(load(leaves.point, at) + outward * hn::Load(d, &leaves.stem_radius_m[at]), to.position_m + at);
+  store(tangent * down.cosine + outward * down.sine, to.axis + at);
+  store(right, to.side + at);
+}
 
 Vector3 turned_about_z(const Vector3& v, const SineCosine& turn) {
   return {hn::Sub(hn::Mul(v.x, turn.cosine), hn::Mul(v.y, turn.sine)),
           hn::Add(hn::Mul(v.x, turn.sine), hn::Mul(v.y, turn.cosine)), v.z};
 }
 
+Vector3 load(const Vec3* from) {
+  Vector3 v;
+  hn::LoadInterleaved3(Floats(), &from->x, v.x, v.y, v.z);
+  return v;
+}
+
 /// Turns leaves about z by a share of the angle between their normal and the way out [leaf_placement.cpp].
-void bend_outwards(Placed& leaf, float leaf_bend) {
-  const Vector3 normal = cross(leaf.side, leaf.axis);
-  const Vector sine = hn::Sub(hn::Mul(normal.x, leaf.position.y), hn::Mul(normal.y, leaf.position.x));
-  const Vector cosine = hn::Add(hn::Mul(normal.x, leaf.position.x), hn::Mul(normal.y, leaf.position.y));
+void bend_outwards(const LeafRows& leaves, std::size_t at, float leaf_bend) {
+  const Vector3 position = load(leaves.position_m + at), axis = load(leaves.axis + at),
+                side = load(leaves.side + at);
+  const Vector3 normal = cross(side, axis);
+  const Vector sine = hn::Sub(hn::Mul(normal.x, position.y), hn::Mul(normal.y, position.x));
+  const Vector cosine = hn::Add(hn::Mul(normal.x, position.x), hn::Mul(normal.y, position.y));
   const SineCosine turn = sine_cosine_deg(hn::Mul(set(leaf_bend), arc_tangent2_deg(sine, cosine)));
-  leaf.axis = turned_about_z(leaf.axis, turn);
-  leaf.side = turned_about_z(leaf.side, turn);
+  store(turned_about_z(axis, turn), leaves.axis + at);
+  store(turned_about_z(side, turn), leaves.side + at);
 }
 
-/// Along the segment, in [0, 1]; `k` counts leaves of the run.
-Vector run_position(const RowLanes& run, Vector k, hn::Mask<Floats> is_odd) {
-  const Vector even = hn::Add(run.number(&LeafRow::t_start), hn::Mul(k, run.number(&LeafRow::t_step)));
-  const Vector t = hn::IfThenElse(is_odd, hn::Add(even, run.number(&LeafRow::t_odd)), even);
-  return hn::Min(hn::Max(t, set(0)), set(1));
-}
-
-Vector run_roll_deg(const RowLanes& run, Vector k, hn::Mask<Floats> is_odd, bool alternate) {
-  const Vector roll =
-      hn::Add(run.number(&LeafRow::roll_deg), hn::Mul(k, run.number(&LeafRow::roll_step_deg)));
-  return alternate ? hn::IfThenElse(is_odd, hn::Neg(roll), roll) : roll;
-}
-
-Placed place(const LeafNotes& notes, int first, const WeberPennParameters& p, int stem_level) {
-  const Floats d;
-  const auto column = [&](const auto& values) {
-    return hn::LoadU(d, &values[static_cast<std::size_t>(first)]);
-  };
-  const RowLanes segment(notes, first);
-  const auto k = hn::LoadU(Indices(), &notes.in_run[static_cast<std::size_t>(first)]);
-  const Vector along = hn::ConvertTo(d, k);
-  const auto is_odd = hn::MaskFromVec(hn::BitCast(d, hn::Neg(hn::And(k, hn::Set(Indices(), 1)))));
-  const Vector t = run_position(segment, along, is_odd);
-  const Vector z = hn::Add(segment.number(&LeafRow::z_start), hn::Mul(t, segment.number(&LeafRow::z_length)));
-  const auto [point, tangent] = on_curve(segment, t);
-  const Vector3 across = segment.vector(&LeafRow::across);
-  const Vector3 fallback = normalized(cross(tangent, {set(0), set(1), set(0)}), {set(1), set(0), set(0)});
-  const Vector3 flat = normalized(cross(across, tangent), fallback);
-  const SineCosine roll =
-      sine_cosine_deg(run_roll_deg(segment, along, is_odd, p.rotate[level_index(stem_level + 1)] < 0));
-  const Vector3 right = flat * roll.cosine + cross(tangent, flat) * roll.sine;
-  const Vector3 outward = cross(tangent, right);
-  const SineCosine down = sine_cosine_deg(down_angle_at(
-      z, column(notes.jitter), p, level_index(stem_level + 1), p.base_size[level_index(stem_level)]));
-  Placed leaf{point + outward * radius_at(segment, z, p.taper[level_index(stem_level)]),
-              tangent * down.cosine + outward * down.sine, right};
-  if (p.leaf_bend > 0) bend_outwards(leaf, p.leaf_bend);
-  return leaf;
-}
-
-void store(const Vector3& v, Vec3* to) { hn::StoreInterleaved3(v.x, v.y, v.z, Floats(), &to->x); }
-
-/// Writes whole vectors: up to 7 rows more than there are notes.
-void place_all(const LeafNotes& notes, const WeberPennParameters& p, Vec3* position_m, Vec3* axis,
+/// Writes whole vectors: up to 7 rows more than there are leaves.
+void place_all(const WeberPennParameters& p, WaitingLeaves& leaves, Vec3* position_m, Vec3* axis,
                Vec3* side) {
-  const int stem_level = p.level_count() - 1, lanes = static_cast<int>(hn::Lanes(Floats()));
-  for (int first = 0; first < notes.count; first += lanes) {
-    const Placed leaf = place(notes, first, p, stem_level);
-    store(leaf.position, position_m + first);
-    store(leaf.axis, axis + first);
-    store(leaf.side, side + first);
-  }
+  const LeafRows to{position_m, axis, side};
+  const auto count = static_cast<std::size_t>(leaves.count), lanes = hn::Lanes(Floats());
+  for (std::size_t at = 0; at < count; at += lanes) make_frames(leaves, at);
+  for (std::size_t at = 0; at < count; at += lanes) turn_leaves(leaves, at, to);
+  if (p.leaf_bend > 0)
+    for (std::size_t at = 0; at < count; at += lanes) bend_outwards(to, at, p.leaf_bend);
 }
 
 }  // namespace
@@ -161,19 +196,22 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace espalier {
 
+HWY_EXPORT(add_run);
 HWY_EXPORT(place_all);
 
 namespace {
 
-ChildRun without_first(const ChildRun& run) {
-  return {.first = run.first + 1,
-          .count = run.count - 1,
-          .t_start = run.t_start + run.t_step + run.t_odd,
-          .t_step = run.t_step,
-          .t_odd = -run.t_odd,
-          .roll_deg = run.alternate ? -run.roll_deg : run.roll_deg + run.roll_step_deg,
-          .roll_step_deg = run.roll_step_deg,
-          .alternate = run.alternate};
+/// Without its first `skipped` leaves.
+ChildRun rest_of(const ChildRun& run, int skipped) {
+  ChildRun rest = run;
+  rest.first += skipped;
+  rest.count -= skipped;
+  const bool is_odd = skipped % 2 == 1;
+  rest.t_start += static_cast<float>(skipped) * run.t_step + (is_odd ? run.t_odd : 0);
+  if (is_odd) rest.t_odd = -run.t_odd;
+  rest.roll_deg += static_cast<float>(skipped) * run.roll_step_deg;
+  if (is_odd && run.alternate) rest.roll_deg = -rest.roll_deg;
+  return rest;
 }
 
 }  // namespace
@@ -187,65 +225,54 @@ void LeafBatch::add(const GrowingStem& stem, const Segment& segment, ChildPlacer
   const float bare = p_.base_size[level_index(stem.level)], z_length = segment.z_end - segment.z_start;
   const auto is_bare = [&](float t) { return segment.z_start + std::clamp(t, 0.f, 1.f) * z_length < bare; };
   if (ChildRun run; placer.next_run(run)) {
-    while (run.count > 0 && is_bare(run.t_start)) run = without_first(run);
-    note_run(stem, segment, run, 1);
+    while (run.count > 0 && is_bare(run.t_start)) run = rest_of(run, 1);
+    add_run(stem, segment, run, 1);
   }
   for (ChildSlot slot; placer.next_slot(slot);)
     if (slot.grown_fraction > 0 && !is_bare(slot.t))
-      note_run(stem, segment, {.first = slot.index, .count = 1, .t_start = slot.t, .roll_deg = slot.roll_deg},
-               slot.grown_fraction);
+      add_run(stem, segment, {.first = slot.index, .count = 1, .t_start = slot.t, .roll_deg = slot.roll_deg},
+              slot.grown_fraction);
 }
 
-void LeafBatch::note_run(const GrowingStem& stem, const Segment& segment, ChildRun run,
-                         float grown_fraction) {
-  const bool has_jitter = p_.down_angle_v[level_index(stem.level + 1)] != 0,
-             has_blossoms = p_.blossom_rate > 0;
-  const float growth = leaf_growth(stem, grown_fraction, p_);
-  for (int k = 0; k < run.count;) {
-    if (notes_.count == LeafNotes::kMost) flush();
-    const int row = notes_.rows++, end = std::min(run.count, k + LeafNotes::kMost - notes_.count);
-    notes_.row[static_cast<std::size_t>(row)] = {
-        segment.start_m,     segment.handle_out_m,
-        segment.handle_in_m, segment.end_m,
-        segment.end.forward, cross(segment.end.forward, segment.end.right),
-        stem.radius_m,       stem.length_m,
-        segment.z_start,     segment.z_end - segment.z_start,
-        run.t_start,         run.t_step,
-        run.t_odd,           run.roll_deg,
-        run.roll_step_deg};
-    for (; k < end; ++k) {
-      const auto i = static_cast<std::size_t>(notes_.count++);
-      notes_.row_index[i] = row;
-      notes_.in_run[i] = k;
-      notes_.growth[i] = growth;
-      notes_.jitter[i] = has_jitter ? draw_signed(stem.key, Draw::child_down_angle, run.first + k) : 0;
-      notes_.kind[i] = has_blossoms ? leaf_kind(stem, run.first + k, p_) : LeafKind::leaf;
-    }
+void LeafBatch::add_run(const GrowingStem& stem, const Segment& segment, const ChildRun& run,
+                        float grown_fraction) {
+  const int room = WaitingLeaves::kMost - waiting_.count;
+  if (run.count > room) {
+    ChildRun part = run;
+    part.count = room;
+    add_run(stem, segment, part, grown_fraction);
+    flush();
+    return add_run(stem, segment, rest_of(run, room), grown_fraction);
   }
+  HWY_DYNAMIC_DISPATCH(add_run)(stem, segment, run, leaf_growth(stem, grown_fraction, p_), p_, waiting_);
+  if (p_.blossom_rate > 0)
+    for (int i = 0; i < run.count; ++i)
+      waiting_.kind[static_cast<std::size_t>(waiting_.count + i)] = leaf_kind(stem, run.first + i, p_);
+  waiting_.count += run.count;
 }
 
 void LeafBatch::append_sizes() {
-  const std::size_t before = leaves_.size(), count = static_cast<std::size_t>(notes_.count);
-  leaves_.kind.insert(leaves_.kind.end(), notes_.kind.begin(), notes_.kind.begin() + notes_.count);
+  const std::size_t before = leaves_.size(), count = static_cast<std::size_t>(waiting_.count);
+  leaves_.kind.insert(leaves_.kind.end(), waiting_.kind.begin(), waiting_.kind.begin() + waiting_.count);
   leaves_.length_m.resize(before + count);
   leaves_.width_m.resize(before + count);
   for (std::size_t i = 0; i < count; ++i) {
-    const bool is_leaf = notes_.kind[i] == LeafKind::leaf;
-    leaves_.length_m[before + i] = (is_leaf ? p_.leaf_scale : p_.blossom_scale) * notes_.growth[i];
+    const bool is_leaf = waiting_.kind[i] == LeafKind::leaf;
+    leaves_.length_m[before + i] = (is_leaf ? p_.leaf_scale : p_.blossom_scale) * waiting_.growth[i];
     leaves_.width_m[before + i] = leaves_.length_m[before + i] * (is_leaf ? p_.leaf_scale_x : 1);
   }
 }
 
 void LeafBatch::flush() {
   const std::size_t before = leaves_.position_m.size(),
-                    after = before + static_cast<std::size_t>(notes_.count);
+                    after = before + static_cast<std::size_t>(waiting_.count);
   for (std::vector<Vec3>* column : {&leaves_.position_m, &leaves_.axis, &leaves_.side})
-    column->resize(after + LeafNotes::kMost % 8 + 8);
+    column->resize(after + 8);
   HWY_DYNAMIC_DISPATCH(place_all)
-  (notes_, p_, &leaves_.position_m[before], &leaves_.axis[before], &leaves_.side[before]);
+  (p_, waiting_, &leaves_.position_m[before], &leaves_.axis[before], &leaves_.side[before]);
   for (std::vector<Vec3>* column : {&leaves_.position_m, &leaves_.axis, &leaves_.side}) column->resize(after);
   append_sizes();
-  notes_.count = notes_.rows = 0;
+  waiting_.count = 0;
 }
 
 }  // namespace espalier

@@ -1,7 +1,7 @@
-// Leaves are placed many at a time: while stems grow, each leaf is noted as a place on a segment; when enough
-// are noted, all are turned into positions and directions with vector instructions. The same formulas as
-// place_leaf (leaf_placement.h), within the rounding of floats; the same bits on every machine.
-// Metres and degrees.
+// Leaves are placed many at a time with vector instructions. Those of a segment that follow one rule are put
+// on its curve together; when some hundreds wait, all are turned into place, in passes that are short enough
+// for a processor to overlap one vector with the next. The same formulas as place_leaf (leaf_placement.h),
+// within the rounding of floats; the same bits on every machine. Metres and degrees.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -11,28 +11,23 @@
 
 namespace espalier {
 
-/// A run of leaves on a segment as the vector code reads it, one row of floats: the segment's curve and
-/// frame, its stem, and the rule of the run [children.h].
-struct LeafRow {
-  Vec3 start_m, handle_out_m, handle_in_m, end_m;
-  Vec3 heading;  ///< at its end
-  Vec3 across;   ///< forward × right at its end: with the tangent it spans the plane of `right`
-  float base_radius_m, stem_length_m;
-  float z_start, z_length;  ///< of the segment, along the stem
-  float t_start, t_step, t_odd, roll_deg, roll_step_deg;
-};
-
-/// Notes of leaves: column i of each array is one leaf.
-struct LeafNotes {
+/// Leaves on their way to the plant, a column for each number. Whole vectors are written: some rows beyond
+/// `count` hold nothing.
+struct WaitingLeaves {
   static constexpr int kMost = 256;
-  int count = 0, rows = 0;
-  std::array<LeafRow, kMost> row;
-  alignas(
-      64) std::array<std::int32_t, kMost> row_index{};   ///< beyond count, where vectors end, a row there is
-  alignas(64) std::array<std::int32_t, kMost> in_run{};  ///< k of the run
-  alignas(64) std::array<float, kMost> jitter{};         ///< of the down angle, in [-1, 1)
-  alignas(64) std::array<float, kMost> growth{};         ///< of its size, relative to leaf_scale
-  std::array<LeafKind, kMost> kind{};
+  template <typename T>
+  using Column = std::array<T, kMost + 8>;
+  struct Columns3 {
+    alignas(64) Column<float> x, y, z;
+  };
+  int count = 0;
+  Columns3 point;    ///< on the stem's axis
+  Columns3 tangent;  ///< along it, of any length
+  Columns3 across;  ///< forward × right at the segment's end: with the tangent it spans the plane of `right`
+  Columns3 right;   ///< of the unrolled frame
+  alignas(64) Column<float> stem_radius_m, roll_deg, down_deg;
+  alignas(64) Column<float> growth;  ///< of the size, relative to leaf_scale
+  alignas(64) Column<LeafKind> kind;
 };
 
 class LeafBatch {
@@ -43,21 +38,21 @@ class LeafBatch {
   /// stem swells periodically.
   static bool takes(const GrowingStem& stem, const WeberPennParameters& parameters);
 
-  /// Notes all leaves of a segment; `placer` has begun it.
+  /// Takes all leaves of a segment; `placer` has begun it.
   void add(const GrowingStem& stem, const Segment& segment, ChildPlacer& placer);
 
-  /// Appends what is noted to `leaves`.
+  /// Places what waits, and appends it to `leaves`.
   void flush();
 
-  int noted() const { return notes_.count; }
+  int waiting() const { return waiting_.count; }
 
  private:
-  void note_run(const GrowingStem& stem, const Segment& segment, ChildRun run, float grown_fraction);
+  void add_run(const GrowingStem& stem, const Segment& segment, const ChildRun& run, float grown_fraction);
   void append_sizes();
 
   const WeberPennParameters& p_;
   Leaves& leaves_;
-  LeafNotes notes_;
+  WaitingLeaves waiting_;
 };
 
 }  // namespace espalier
