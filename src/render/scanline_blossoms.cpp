@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 #include "core/error.h"
 #include "plant/leaf_outlines.h"
@@ -73,6 +74,7 @@ void draw_blossoms(const Plant& plant, const Camera& camera, Mask& mask) {
   const LeafOutline& outline = blossom_outline(plant.blossom_shape);
   ESPALIER_CHECK_EQ(outline.vertices.size() <= kMostVertices, true);
   const Leaves& leaves = plant.leaves;
+  if (std::memchr(leaves.kind.data(), static_cast<int>(LeafKind::blossom), leaves.size()) == nullptr) return;
   const float reach = reach_of(outline);
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     if (leaves.kind[i] != LeafKind::blossom) continue;

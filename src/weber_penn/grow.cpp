@@ -84,11 +84,26 @@ class Growth::StemGrowth : public StemVisitor {
 
   bool segment(const GrowingStem& stem, const Segment& segment) override {
     append_knots(stem, segment, growth_.p_, growth_.plant_.knots);
-    if (!children_) return true;
+    bear_children(stem, segment);
+    return true;
+  }
+
+  /// Those of a stem that does not split.
+  void all_segments(const GrowingStem& stem, std::span<const Segment> segments) {
+    append_knots(stem, segments, growth_.p_, growth_.plant_.knots);
+    if (children_)
+      for (const Segment& segment : segments) bear_children(stem, segment);
+  }
+
+  void split(const GrowingStem& clone) override { growth_.level_.push_back(clone); }
+
+ private:
+  void bear_children(const GrowingStem& stem, const Segment& segment) {
+    if (!children_) return;
     children_->begin(stem, segment);
     if (bears_leaves_ && LeafBatch::takes(stem, growth_.p_)) {
       growth_.batch_.add(stem, segment, *children_);
-      return true;
+      return;
     }
     for (ChildSite site; children_->next(site);) {
       if (bears_leaves_)
@@ -96,12 +111,8 @@ class Growth::StemGrowth : public StemVisitor {
       else
         growth_.grow_child(stem, index_, site);
     }
-    return true;
   }
 
-  void split(const GrowingStem& clone) override { growth_.level_.push_back(clone); }
-
- private:
   Growth& growth_;
   std::int32_t index_;
   bool bears_leaves_ = false;
@@ -130,7 +141,7 @@ void Growth::grow_stems(std::span<const GrowingStem> stems) {
   stem_batch_.walk(stems, p_);
   for (std::size_t i = 0; i < stems.size(); ++i) {
     StemGrowth growth = begin_stem(stems[i]);
-    for (const Segment& segment : stem_batch_.segments(i)) growth.segment(stems[i], segment);
+    growth.all_segments(stems[i], stem_batch_.segments(i));
     end_stem();
   }
 }
