@@ -19,7 +19,8 @@ LeafHalf right_half(const LeafOutline& outline) {
     half.half_width = std::max({half.half_width, a.x, b.x});
     if (a.x < 0 || b.x < 0 || a.y == b.y) continue;
     if (a.y > b.y) std::swap(a, b);
-    half.edges.push_back({a.y, b.y, a.x, (b.x - a.x) / (b.y - a.y)});
+    const float slope = (b.x - a.x) / (b.y - a.y);
+    half.edges.push_back({a.y, b.y, a.x - slope * a.y, slope});
   }
   half.is_chain = std::ranges::adjacent_find(half.edges, [](const auto& a, const auto& b) {
                     return a.y1 != b.y0;

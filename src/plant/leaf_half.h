@@ -5,9 +5,9 @@
 namespace espalier {
 
 struct LeafHalf {
-  /// x = x0 + slope·(y − y0) for y in [y0, y1).
+  /// x = at_zero + slope·y for y in [y0, y1).
   struct Edge {
-    float y0, y1, x0, slope;
+    float y0, y1, at_zero, slope;
   };
   std::vector<Edge> edges;
   bool is_chain = false;  ///< edges come from bottom to top, each from the end of the one before
@@ -17,7 +17,7 @@ struct LeafHalf {
   bool contains(float x, float y) const {
     bool inside = false;
     for (const Edge& edge : edges)
-      inside ^= (y >= edge.y0) & (y < edge.y1) & (x < edge.x0 + edge.slope * (y - edge.y0));
+      inside ^= (y >= edge.y0) & (y < edge.y1) & (x < edge.at_zero + edge.slope * y);
     return inside;
   }
 };

@@ -118,22 +118,23 @@ std::size_t prepare_some(const Leaves& leaves, std::size_t first, const Camera& 
 void draw_orthographic(const Plant& plant, const Camera& camera, Mask& mask) {
   const Leaves& leaves = plant.leaves;
   const LeafHalf& half = leaf_half(plant.leaf_shape);
+  const LeafEdges edges(half);
   LeafColumns columns;
-  PixelQueue queue(mask);
+  TileQueue queue(mask);
   std::array<std::int32_t, LeafColumns::kMost> unset;
   for (std::size_t first = 0; first < leaves.size(); first += LeafColumns::kMost) {
     const std::size_t count = prepare_some(leaves, first, camera, half.half_width, mask, columns);
     for (std::size_t at = 0; at < count; at += hn::Lanes(Floats()))
-      queue.unset_in_first_tiles(columns, at, &unset[at]);
+      queue.unset_of_first_pixels(columns, at, &unset[at]);
     for (std::size_t i = 0; i < count; ++i) {
       if (leaves.kind[first + i] != LeafKind::leaf) continue;
       const PixelRectangle box = columns.box(i);
-      if (std::max(box.end_x - box.begin_x, box.end_y - box.begin_y) <= PixelQueue::kWidestPx)
+      if (std::max(box.end_x - box.begin_x, box.end_y - box.begin_y) <= TileQueue::kWidestPx)
         queue.add(box, unset[i], i);
       else if (!is_covered(mask, box))
-        draw_leaf<false>(columns.map(i), half, box, mask);
+        draw_leaf<false>(columns.map(i), edges, box, mask);
     }
-    queue.draw(columns, half);
+    queue.draw(columns, edges);
   }
 }
 
@@ -182,13 +183,14 @@ PixelRectangle perspective_box(const Camera& camera, Vec3 stalk_m, Vec3 half_sid
 void draw_perspective(const Plant& plant, const Camera& camera, Mask& mask) {
   const Leaves& leaves = plant.leaves;
   const LeafHalf& half = leaf_half(plant.leaf_shape);
+  const LeafEdges edges(half);
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     if (leaves.kind[i] != LeafKind::leaf) continue;
     const Vec3 side = leaves.side[i] * leaves.width_m[i], axis = leaves.axis[i] * leaves.length_m[i];
     const PixelRectangle box =
         perspective_box(camera, leaves.position_m[i], side * half.half_width, axis, mask);
     if (box.is_empty() || is_covered(mask, box)) continue;
-    draw_leaf<true>(perspective_map(camera, box, leaves.position_m[i] - camera.position_m, side, axis), half,
+    draw_leaf<true>(perspective_map(camera, box, leaves.position_m[i] - camera.position_m, side, axis), edges,
                     box, mask);
   }
 }
