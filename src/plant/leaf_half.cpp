@@ -12,6 +12,20 @@ namespace {
 
 constexpr int kShapes = 11;
 
+/// Moves a chain of edges to the front, the lowest one first; its length.
+std::size_t chain_edges(std::vector<LeafHalf::Edge>& edges) {
+  std::ranges::stable_sort(edges, {}, &LeafHalf::Edge::y0);
+  std::size_t chain = 1;
+  for (std::size_t i = 1; i < edges.size(); ++i)
+    if (edges[i].y0 == edges[chain - 1].y1) {
+      std::rotate(edges.begin() + static_cast<std::ptrdiff_t>(chain),
+                  edges.begin() + static_cast<std::ptrdiff_t>(i),
+                  edges.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      ++chain;
+    }
+  return chain;
+}
+
 LeafHalf right_half(const LeafOutline& outline) {
   LeafHalf half;
   for (std::size_t i = 0; i + 1 < outline.vertices.size(); ++i) {
@@ -22,9 +36,7 @@ LeafHalf right_half(const LeafOutline& outline) {
     const float slope = (b.x - a.x) / (b.y - a.y);
     half.edges.push_back({a.y, b.y, a.x - slope * a.y, slope});
   }
-  half.is_chain = std::ranges::adjacent_find(half.edges, [](const auto& a, const auto& b) {
-                    return a.y1 != b.y0;
-                  }) == half.edges.end();
+  half.chain = chain_edges(half.edges);
   return half;
 }
 

@@ -1,5 +1,6 @@
 // The right half of a leaf's outline as edges: what a point is tested against. Unit length, no unit.
 #pragma once
+#include <cstddef>
 #include <vector>
 
 namespace espalier {
@@ -10,7 +11,7 @@ struct LeafHalf {
     float y0, y1, at_zero, slope;
   };
   std::vector<Edge> edges;
-  bool is_chain = false;  ///< edges come from bottom to top, each from the end of the one before
+  std::size_t chain = 0;  ///< the first edges, from bottom to top, each from where the one before ends
   float half_width = 0;
 
   /// x (not negative) and y of the outline: inside where an odd number of edges lie to the right.

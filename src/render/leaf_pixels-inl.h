@@ -34,7 +34,7 @@ class LeafEdges {
  public:
   static constexpr std::size_t kMost = 16;
 
-  explicit LeafEdges(const LeafHalf& half) : count_(half.edges.size()), is_chain_(half.is_chain) {
+  explicit LeafEdges(const LeafHalf& half) : count_(half.edges.size()), chain_(half.chain) {
     ESPALIER_CHECK_EQ(count_ >= 1 && count_ <= kMost, true);
     for (std::size_t i = 0; i < count_; ++i) {
       const LeafHalf::Edge& edge = half.edges[i];
@@ -44,36 +44,34 @@ class LeafEdges {
 
   /// LeafHalf::contains of each lane, for x of either sign.
   hn::Mask<Floats> contain(Vector x, Vector y) const {
-    return is_chain_ ? chain_contains(hn::Abs(x), y) : edges_contain(hn::Abs(x), y);
+    x = hn::Abs(x);
+    auto inside = chain_contains(x, y);
+    for (std::size_t i = chain_; i < count_; ++i) {
+      const Vector edge_x = hn::Add(of(at_zero_[i]), hn::Mul(of(slope_[i]), y));
+      inside = hn::Xor(inside, hn::And(is_beside(y, i, i), hn::Lt(x, edge_x)));
+    }
+    return inside;
   }
 
  private:
   using Lanes = std::array<float, kMostLanes>;
 
   static Vector of(const Lanes& lanes) { return hn::Load(Floats(), lanes.data()); }
-  /// y lies beside one edge at most.
+  hn::Mask<Floats> is_beside(Vector y, std::size_t lowest, std::size_t highest) const {
+    return hn::And(hn::Ge(y, of(y0_[lowest])), hn::Lt(y, of(y1_[highest])));
+  }
+  /// y lies beside one edge of a chain at most.
   hn::Mask<Floats> chain_contains(Vector x, Vector y) const {
     Vector at_zero = of(at_zero_[0]), slope = of(slope_[0]);
-    for (std::size_t i = 1; i < count_; ++i) {
+    for (std::size_t i = 1; i < chain_; ++i) {
       const auto is_above = hn::Ge(y, of(y0_[i]));
       at_zero = hn::IfThenElse(is_above, of(at_zero_[i]), at_zero);
       slope = hn::IfThenElse(is_above, of(slope_[i]), slope);
     }
-    const auto beside = hn::And(hn::Ge(y, of(y0_[0])), hn::Lt(y, of(y1_[count_ - 1])));
-    return hn::And(beside, hn::Lt(x, hn::Add(at_zero, hn::Mul(slope, y))));
-  }
-  hn::Mask<Floats> edges_contain(Vector x, Vector y) const {
-    auto inside = hn::FirstN(Floats(), 0);
-    for (std::size_t i = 0; i < count_; ++i) {
-      const auto beside = hn::And(hn::Ge(y, of(y0_[i])), hn::Lt(y, of(y1_[i])));
-      const Vector edge_x = hn::Add(of(at_zero_[i]), hn::Mul(of(slope_[i]), y));
-      inside = hn::Xor(inside, hn::And(beside, hn::Lt(x, edge_x)));
-    }
-    return inside;
+    return hn::And(is_beside(y, 0, chain_ - 1), hn::Lt(x, hn::Add(at_zero, hn::Mul(slope, y))));
   }
 
-  std::size_t count_;
-  bool is_chain_;
+  std::size_t count_, chain_;
   alignas(64) std::array<Lanes, kMost> y0_, y1_, at_zero_, slope_;
 };
 
