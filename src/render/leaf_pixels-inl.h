@@ -11,6 +11,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <span>
 
 #include "core/error.h"
 #include "core/vector_math-inl.h"
@@ -32,13 +33,12 @@ struct LeafMap {
 /// The edges of a leaf's outline, each number in all lanes.
 class LeafEdges {
  public:
-  static constexpr std::size_t kMost = 16;
-
   explicit LeafEdges(const LeafHalf& half) : count_(half.edges.size()), chain_(half.chain) {
-    ESPALIER_CHECK_EQ(count_ >= 1 && count_ <= kMost, true);
+    ESPALIER_CHECK_EQ(chain_ >= 1 && count_ <= kMost, true);
     for (std::size_t i = 0; i < count_; ++i) {
       const LeafHalf::Edge& edge = half.edges[i];
-      y0_[i].fill(edge.y0), y1_[i].fill(edge.y1), at_zero_[i].fill(edge.at_zero), slope_[i].fill(edge.slope);
+      edges_[i].y0.fill(edge.y0), edges_[i].y1.fill(edge.y1);
+      edges_[i].at_zero.fill(edge.at_zero), edges_[i].slope.fill(edge.slope);
     }
   }
 
@@ -46,33 +46,38 @@ class LeafEdges {
   hn::Mask<Floats> contain(Vector x, Vector y) const {
     x = hn::Abs(x);
     auto inside = chain_contains(x, y);
-    for (std::size_t i = chain_; i < count_; ++i) {
-      const Vector edge_x = hn::Add(of(at_zero_[i]), hn::Mul(of(slope_[i]), y));
-      inside = hn::Xor(inside, hn::And(is_beside(y, i, i), hn::Lt(x, edge_x)));
+    for (const Edge& edge : std::span(edges_).subspan(chain_, count_ - chain_)) {
+      const Vector edge_x = hn::Add(of(edge.at_zero), hn::Mul(of(edge.slope), y));
+      inside = hn::Xor(inside, hn::And(is_between(y, edge, edge), hn::Lt(x, edge_x)));
     }
     return inside;
   }
 
  private:
+  static constexpr std::size_t kMost = 16;
   using Lanes = std::array<float, kMostLanes>;
+  struct alignas(64) Edge {
+    Lanes y0, y1, at_zero, slope;
+  };
 
   static Vector of(const Lanes& lanes) { return hn::Load(Floats(), lanes.data()); }
-  hn::Mask<Floats> is_beside(Vector y, std::size_t lowest, std::size_t highest) const {
-    return hn::And(hn::Ge(y, of(y0_[lowest])), hn::Lt(y, of(y1_[highest])));
+  static hn::Mask<Floats> is_between(Vector y, const Edge& lowest, const Edge& highest) {
+    return hn::And(hn::Ge(y, of(lowest.y0)), hn::Lt(y, of(highest.y1)));
   }
   /// y lies beside one edge of a chain at most.
   hn::Mask<Floats> chain_contains(Vector x, Vector y) const {
-    Vector at_zero = of(at_zero_[0]), slope = of(slope_[0]);
-    for (std::size_t i = 1; i < chain_; ++i) {
-      const auto is_above = hn::Ge(y, of(y0_[i]));
-      at_zero = hn::IfThenElse(is_above, of(at_zero_[i]), at_zero);
-      slope = hn::IfThenElse(is_above, of(slope_[i]), slope);
+    Vector at_zero = of(edges_[0].at_zero), slope = of(edges_[0].slope);
+    for (const Edge& edge : std::span(edges_).subspan(1, chain_ - 1)) {
+      const auto is_above = hn::Ge(y, of(edge.y0));
+      at_zero = hn::IfThenElse(is_above, of(edge.at_zero), at_zero);
+      slope = hn::IfThenElse(is_above, of(edge.slope), slope);
     }
-    return hn::And(is_beside(y, 0, chain_ - 1), hn::Lt(x, hn::Add(at_zero, hn::Mul(slope, y))));
+    return hn::And(is_between(y, edges_[0], edges_[chain_ - 1]),
+                   hn::Lt(x, hn::Add(at_zero, hn::Mul(slope, y))));
   }
 
   std::size_t count_, chain_;
-  alignas(64) std::array<Lanes, kMost> y0_, y1_, at_zero_, slope_;
+  std::array<Edge, kMost> edges_;
 };
 
 std::uint64_t bits_of(hn::Mask<Floats> lanes) {
@@ -135,25 +140,25 @@ class TileQueue {
   static constexpr int kWidestPx = 8;
 
   explicit TileQueue(Mask& mask)
-      : bytes_(reinterpret_cast<char*>(mask.words().data())),
-        row_bytes_(8 * mask.words_per_row()),
-        last_row_(mask.height_px() - 1) {}
+      : words_(mask.words().data()), words_per_row_(mask.words_per_row()), last_row_(mask.height_px() - 1) {}
 
   /// The pixels not set yet of the first 4 × 4 pixels of the rectangles of leaves [at, at + lanes): bit
   /// 4·row + column of each number.
   void unset_of_first_pixels(const LeafColumns& leaves, std::size_t at, std::int32_t* unset) const {
+    static_assert(std::endian::native == std::endian::little);
     const hn::RebindToSigned<Floats> di;
     const auto load = [&](const auto& column) { return hn::Load(di, &column[at]); };
+    const int row_bytes = 8 * words_per_row_;
     const auto x = load(leaves.begin_x), y = load(leaves.begin_y), most = hn::Set(di, kWidth);
     const auto width = hn::Min(hn::Sub(load(leaves.end_x), x), most),
                height = hn::Min(hn::Sub(load(leaves.end_y), y), most);
-    const auto byte = hn::Min(hn::ShiftRight<3>(x), hn::Set(di, row_bytes_ - 4)),
+    const auto byte = hn::Min(hn::ShiftRight<3>(x), hn::Set(di, row_bytes - 4)),
                shift = hn::Sub(x, hn::ShiftLeft<3>(byte));
     auto set = hn::Zero(di);
     for (int row = 0; row < 2 * kHeight; ++row) {
       const auto line = hn::Min(hn::Add(y, hn::Set(di, row)), hn::Set(di, last_row_));
-      const auto offset = hn::Add(hn::Mul(line, hn::Set(di, row_bytes_)), byte);
-      const auto bits = hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(bytes_), offset);
+      const auto offset = hn::Add(hn::Mul(line, hn::Set(di, row_bytes)), byte);
+      const auto bits = hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(words_), offset);
       set = hn::Or(set, hn::ShiftLeftSame(hn::And(hn::Shr(bits, shift), hn::Set(di, 15)), kWidth * row));
     }
     const auto one = hn::Set(di, 1), rows = hn::Sub(hn::Shl(one, hn::ShiftLeft<2>(height)), one),
@@ -174,12 +179,12 @@ class TileQueue {
 
   /// Sets the pixels of all tiles that are inside of their leaves, and empties the queue.
   void draw(const LeafColumns& leaves, const LeafEdges& edges) {
-    for (std::size_t tile = 0; tile < size_; ++tile) {
-      const std::size_t i = tiles_[tile].leaf;
-      const int column = tiles_[tile].column, row = tiles_[tile].row;
-      const std::uint32_t inside = inside_bits(leaves.map(i), edges, column, row) & tiles_[tile].unset;
-      set_row(leaves.begin_x[i] + column, leaves.begin_y[i] + row, inside & 15);
-      set_row(leaves.begin_x[i] + column, leaves.begin_y[i] + row + 1, inside >> kWidth);
+    for (const Tile& tile : std::span(tiles_).first(size_)) {
+      const std::uint32_t inside = inside_bits(leaves, tile, edges) & tile.unset;
+      const int x = leaves.begin_x[tile.leaf] + tile.column, y = leaves.begin_y[tile.leaf] + tile.row;
+      std::uint64_t* const row = words_ + std::ptrdiff_t{y} * words_per_row_;
+      set_bits(row, x, inside & 15);
+      set_bits(tile.unset > 15 ? row + words_per_row_ : row, x, inside >> kWidth);
     }
     size_ = 0;
   }
@@ -201,34 +206,29 @@ class TileQueue {
     size_ += unset != 0;
   }
 
-  static std::uint32_t inside_bits(const LeafMap& map, const LeafEdges& edges, int column, int row) {
-    alignas(64) static constexpr float kColumns[] = {0, 1, 2, 3, 0, 1, 2, 3},
-                                       kRows[] = {0, 0, 0, 0, 1, 1, 1, 1};
+  static std::uint32_t inside_bits(const LeafColumns& leaves, const Tile& tile, const LeafEdges& edges) {
+    alignas(64) static constexpr float kColumns[][kMostLanes] = {{0, 1, 2, 3, 0, 1, 2, 3},
+                                                                 {4, 5, 6, 7, 4, 5, 6, 7}};
+    alignas(64) static constexpr float kRows[][kMostLanes] = {{0, 0, 0, 0, 1, 1, 1, 1},
+                                                              {2, 2, 2, 2, 3, 3, 3, 3},
+                                                              {4, 4, 4, 4, 5, 5, 5, 5},
+                                                              {6, 6, 6, 6, 7, 7, 7, 7}};
+    const std::size_t i = tile.leaf;
     std::uint32_t bits = 0;
     for (std::size_t pixel = 0; pixel < kMostLanes; pixel += hn::Lanes(Floats())) {
-      const Vector columns = hn::Add(hn::Load(Floats(), kColumns + pixel), set(static_cast<float>(column))),
-                   rows = hn::Add(hn::Load(Floats(), kRows + pixel), set(static_cast<float>(row)));
-      const auto linear = [&](const float(&a)[3]) {
-        return hn::Add(hn::Add(set(a[0]), hn::Mul(columns, set(a[1]))), hn::Mul(rows, set(a[2])));
-      };
-      bits |= static_cast<std::uint32_t>(bits_of(edges.contain(linear(map.x), linear(map.y)))) << pixel;
+      const Vector column = hn::Load(Floats(), kColumns[tile.column / kWidth] + pixel),
+                   row = hn::Load(Floats(), kRows[tile.row / kHeight] + pixel);
+      const Vector x = hn::Add(hn::Add(set(leaves.x[i]), hn::Mul(column, set(leaves.x_by_column[i]))),
+                               hn::Mul(row, set(leaves.x_by_row[i])));
+      const Vector y = hn::Add(hn::Add(set(leaves.y[i]), hn::Mul(column, set(leaves.y_by_column[i]))),
+                               hn::Mul(row, set(leaves.y_by_row[i])));
+      bits |= static_cast<std::uint32_t>(bits_of(edges.contain(x, y))) << pixel;
     }
     return bits;
   }
 
-  /// Four pixels; those beyond the picture have no bits.
-  void set_row(int x, int y, std::uint32_t bits) {
-    static_assert(std::endian::native == std::endian::little);
-    const int byte = std::min(x >> 3, row_bytes_ - 4);
-    char* const to = bytes_ + std::ptrdiff_t{std::min(y, last_row_)} * row_bytes_ + byte;
-    std::uint32_t word;
-    std::memcpy(&word, to, sizeof word);
-    word |= bits << ((x - 8 * byte) & 31);
-    std::memcpy(to, &word, sizeof word);
-  }
-
-  char* bytes_;
-  int row_bytes_, last_row_;
+  std::uint64_t* words_;
+  int words_per_row_, last_row_;
   std::size_t size_ = 0;
   std::array<Tile, LeafColumns::kMost * kWidestPx * kWidestPx / (kWidth * kHeight) + 1> tiles_;
 };

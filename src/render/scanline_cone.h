@@ -4,7 +4,7 @@
 
 namespace espalier {
 
-constexpr float kThinnestEllipsePx = 0.1f;  ///< half width up to which the end of a cone is a line
+constexpr float kThinnestEllipsePx = 0.25f;  ///< half width up to which the end of a cone is a line
 
 /// A disc across a stem: where its centre falls, and its radius.
 struct ConeEnd {

@@ -205,24 +205,20 @@ PictureLanes on_curve(const CurveColumns& curves, std::size_t i, Vector t) {
 
 void draw_rows(const ConeColumns& columns, std::size_t i, const PixelRun& rows, Mask& mask) {
   const Floats d;
-  const hn::RebindToSigned<Floats> di;
   const int lanes = static_cast<int>(hn::Lanes(d));
   const auto bound = [&](std::size_t b, Vector y) {
     return hn::Add(set(columns.at_zero[b][i]), hn::Mul(set(columns.by_row[b][i]), y));
   };
-  const Vector width = set(static_cast<float>(mask.width_px())), zero = hn::Zero(d);
-  HWY_ALIGN std::int32_t begins[kMostLanes], ends[kMostLanes];
+  alignas(32) std::array<std::int32_t, kMostLanes> begins, ends;
+  std::uint64_t* words = mask.row(rows.begin).data();
   for (int row = rows.begin; row < rows.end; row += lanes) {
     const Vector y = hn::Add(set(static_cast<float>(row) + 0.5f - columns.y0[i]), hn::Iota(d, 0.0f));
-    const Vector low = hn::Max(hn::Max(bound(0, y), bound(1, y)), bound(2, y));
-    const Vector high = hn::Min(hn::Min(bound(3, y), bound(4, y)), bound(5, y));
-    const Vector first = hn::Ceil(hn::Min(hn::Max(hn::Sub(low, set(0.5f)), zero), width));
-    const Vector last = hn::Floor(hn::Max(hn::Min(hn::Add(high, set(0.5f)), width), zero));
-    hn::Store(hn::ConvertTo(di, first), di, begins);
-    hn::Store(hn::ConvertTo(di, last), di, ends);
-    const int count = std::min(lanes, rows.end - row);
-    for (int j = 0; j < count; ++j)
-      if (begins[j] < ends[j]) set_span(mask.row(row + j).data(), begins[j], ends[j]);
+    store_run(hn::Max(hn::Max(bound(0, y), bound(1, y)), bound(2, y)),
+              hn::Min(hn::Min(bound(3, y), bound(4, y)), bound(5, y)), mask.width_px(), begins.data(),
+              ends.data());
+    const auto count = static_cast<std::size_t>(std::min(lanes, rows.end - row));
+    for (std::size_t j = 0; j < count; ++j, words += mask.words_per_row())
+      set_short_span(words, begins[j], ends[j]);
   }
 }
 

@@ -44,9 +44,12 @@ void ChildPlacer::begin(const GrowingStem& stem, const Segment& segment) {
   last_segment_ = segment.z_end >= 1;
   const float grown_part = 1 - static_cast<float>(stem.first_segment) / static_cast<float>(segments);
   const float share = bears_ == Bears::leaves ? grown_part : stem.child_share;
-  rate_ = std::max(0.f, count_) * share / static_cast<float>(segments);
+  if (share != share_) {
+    share_ = share;
+    rate_ = std::max(0.f, count_) * share / static_cast<float>(segments);
+    inverse_rate_ = 1 / rate_;
+  }
   before_ = reached_;
-  inverse_rate_ = 1 / rate_;
   reached_ += rate_;
   constexpr float kRounding = 1e-4f;  // of a running count of up to some hundreds in float
   whole_ = static_cast<int>(reached_ + kRounding);

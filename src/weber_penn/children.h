@@ -78,6 +78,7 @@ class ChildPlacer {
   int child_level_;                    ///< index of the child's level values
   float distribution_;                 ///< branch_dist
   float reached_ = 0, before_ = 0;     ///< running count after and before this segment
+  float share_ = 0;                    ///< of the children that the stem would bear unsplit
   float rate_ = 0, inverse_rate_ = 0;  ///< children per segment
   int whole_ = 0;                      ///< children that the running count has passed
   int placed_ = 0;                     ///< children so far

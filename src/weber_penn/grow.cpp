@@ -76,6 +76,7 @@ class Growth::StemGrowth : public StemVisitor {
       : growth_(growth), index_(static_cast<std::int32_t>(growth.plant_.stems.size()) - 1) {
     const bool last_level = stem.level + 1 >= growth.p_.level_count();
     bears_leaves_ = last_level && growth.p_.leaf_blos_num != 0;
+    in_batches_ = bears_leaves_ && LeafBatch::takes(stem, growth.p_);
     if (bears_leaves_)
       children_.emplace(stem, ChildPlacer::Bears::leaves, growth.p_);
     else if (!last_level)
@@ -101,7 +102,7 @@ class Growth::StemGrowth : public StemVisitor {
   void bear_children(const GrowingStem& stem, const Segment& segment) {
     if (!children_) return;
     children_->begin(stem, segment);
-    if (bears_leaves_ && LeafBatch::takes(stem, growth_.p_)) {
+    if (in_batches_) {
       growth_.batch_.add(stem, segment, *children_);
       return;
     }
@@ -115,7 +116,7 @@ class Growth::StemGrowth : public StemVisitor {
 
   Growth& growth_;
   std::int32_t index_;
-  bool bears_leaves_ = false;
+  bool bears_leaves_ = false, in_batches_ = false;
   std::optional<ChildPlacer> children_;
 };
 
