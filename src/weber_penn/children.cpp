@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "weber_penn/shape_ratio.h"
 
@@ -67,27 +68,17 @@ bool ChildPlacer::next_slot(ChildSlot& slot) {
 }
 
 bool ChildPlacer::next_run(ChildRun& run) {
-  const float rotate = p_.rotate[child_level_];
-  if (count_ < 0 || distribution_ > 1 || p_.rotate_v[child_level_] != 0 || !(rate_ > 0)) return false;
+  if (count_ < 0 || distribution_ > 1 || placed_ >= whole_) return false;
   run.first = placed_;
-  run.count = whole_ - placed_;
-  if (run.count <= 0) return false;
-  placed_ = whole_;
+  run.count = std::min(whole_ - placed_, kMostInRun);
   const float shift = distribution_ * inverse_rate_;
   const bool starts_odd = run.first % 2 == 1;
   run.t_start = (static_cast<float>(run.first) - before_) * inverse_rate_ - (starts_odd ? shift : 0);
   run.t_step = inverse_rate_;
   run.t_odd = starts_odd ? shift : -shift;
-  run.alternate = rotate < 0;
-  if (run.alternate) {
-    run.roll_deg = (starts_odd ? -1.f : 1.f) * (180 + rotate);
-    run.roll_step_deg = 0;
-  } else {
-    run.roll_deg = rotation_deg_ + rotate;
-    run.roll_step_deg = rotate;
-    rotation_deg_ += static_cast<float>(run.count) * rotate;
-    rotation_deg_ -= 360 * static_cast<float>(static_cast<int>(rotation_deg_ * (1.f / 360)));
-  }
+  run.roll_deg = rolls_deg_.data();
+  for (int k = 0; k < run.count; ++k, ++placed_)
+    rolls_deg_[static_cast<std::size_t>(k)] = next_rotation_deg();
   return true;
 }
 

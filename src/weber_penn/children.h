@@ -1,6 +1,8 @@
 // Where children sit on a stem and which way they point: stems and leaves alike [CH §3.2.1 Branch
 // Distribution, §3.2.2]. Metres and degrees.
 #pragma once
+#include <array>
+
 #include "weber_penn/stem_walk.h"
 
 namespace espalier {
@@ -13,14 +15,12 @@ struct ChildSlot {
   float grown_fraction = 1;  ///< under 1 for the last child of a relaxed count
 };
 
-/// Children of one segment that follow each other by one rule: child k of `count` is child first + k of the
-/// parent. It sits at t_start + k·t_step (t_odd further where k is odd) along the segment, clamped to it, and
-/// is rolled by roll_deg + k·roll_step_deg, to the other side where k is odd and `alternate` is set.
+/// Children of one segment that are evenly spaced: child k of `count` is child first + k of the parent. It
+/// sits at t_start + k·t_step (t_odd further where k is odd) along the segment, clamped to it.
 struct ChildRun {
   int first = 0, count = 0;
   float t_start = 0, t_step = 0, t_odd = 0;
-  float roll_deg = 0, roll_step_deg = 0;
-  bool alternate = false;
+  const float* roll_deg = nullptr;  ///< of each about the parent; 7 numbers more can be read
 };
 
 /// One place for a child on its parent's axis.
@@ -44,6 +44,7 @@ float leaf_count(const GrowingStem& stem, const WeberPennParameters& parameters)
 class ChildPlacer {
  public:
   enum class Bears { stems, leaves };
+  static constexpr int kMostInRun = 64;
 
   /// Counts are those above, for the whole stem if it were no clone and did not split.
   ChildPlacer(const GrowingStem& stem, Bears bears, const WeberPennParameters& parameters);
@@ -56,8 +57,8 @@ class ChildPlacer {
   /// The same without the turtle, except in fans; slots below the stem's base bear nothing.
   bool next_slot(ChildSlot& slot);
 
-  /// Takes all whole children of the segment at once, where they follow one rule: not in fans or whorls, nor
-  /// with random rotation. next_slot() then yields what is left.
+  /// Takes whole children of the segment, as many as kMostInRun, until it returns false; not in fans or
+  /// whorls. Their rolls are kept until the next run. next_slot() then yields what is left.
   bool next_run(ChildRun& run);
 
  private:
@@ -85,6 +86,7 @@ class ChildPlacer {
   int whorl_ = 0, in_whorl_ = 0;
   float rotation_deg_;
   bool last_segment_ = false;
+  std::array<float, kMostInRun + 8> rolls_deg_;
 };
 
 }  // namespace espalier

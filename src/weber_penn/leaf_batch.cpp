@@ -63,11 +63,6 @@ Vector run_position(const ChildRun& run, Vector k, hn::Mask<Floats> is_odd) {
   return hn::Min(hn::Max(t, set(0)), set(1));
 }
 
-Vector run_roll_deg(const ChildRun& run, Vector k, hn::Mask<Floats> is_odd) {
-  const Vector roll = hn::Add(set(run.roll_deg), hn::Mul(k, set(run.roll_step_deg)));
-  return run.alternate ? hn::IfThenElse(is_odd, hn::Neg(roll), roll) : roll;
-}
-
 /// Of the down angle, in [-1, 1).
 Vector draw_jitter(const GrowingStem& stem, int first_child, int count, const WeberPennParameters& p) {
   if (p.down_angle_v[level_index(stem.level + 1)] == 0) return set(0);
@@ -111,7 +106,7 @@ void add_run(const GrowingStem& stem, const Segment& segment, const ChildRun& ru
     store(curve.tangent, leaves.tangent, at);
     store(across, leaves.across, at);
     hn::StoreU(radius_at(stem, z, p.taper[level]), Floats(), &leaves.stem_radius_m[at]);
-    hn::StoreU(run_roll_deg(run, along, is_odd), Floats(), &leaves.roll_deg[at]);
+    hn::StoreU(hn::LoadU(Floats(), run.roll_deg + first), Floats(), &leaves.roll_deg[at]);
     hn::StoreU(down_angle_at(z, jitter, p, level_index(stem.level + 1), p.base_size[level]), Floats(),
                &leaves.down_deg[at]);
     hn::StoreU(set(growth), Floats(), &leaves.growth[at]);
@@ -209,8 +204,7 @@ ChildRun rest_of(const ChildRun& run, int skipped) {
   const bool is_odd = skipped % 2 == 1;
   rest.t_start += static_cast<float>(skipped) * run.t_step + (is_odd ? run.t_odd : 0);
   if (is_odd) rest.t_odd = -run.t_odd;
-  rest.roll_deg += static_cast<float>(skipped) * run.roll_step_deg;
-  if (is_odd && run.alternate) rest.roll_deg = -rest.roll_deg;
+  rest.roll_deg += skipped;
   return rest;
 }
 
@@ -224,14 +218,16 @@ bool LeafBatch::takes(const GrowingStem& stem, const WeberPennParameters& p) {
 void LeafBatch::add(const GrowingStem& stem, const Segment& segment, ChildPlacer& placer) {
   const float bare = p_.base_size[level_index(stem.level)], z_length = segment.z_end - segment.z_start;
   const auto is_bare = [&](float t) { return segment.z_start + std::clamp(t, 0.f, 1.f) * z_length < bare; };
-  if (ChildRun run; placer.next_run(run)) {
+  for (ChildRun run; placer.next_run(run);) {
     while (run.count > 0 && is_bare(run.t_start)) run = rest_of(run, 1);
     add_run(stem, segment, run, 1);
   }
-  for (ChildSlot slot; placer.next_slot(slot);)
-    if (slot.grown_fraction > 0 && !is_bare(slot.t))
-      add_run(stem, segment, {.first = slot.index, .count = 1, .t_start = slot.t, .roll_deg = slot.roll_deg},
-              slot.grown_fraction);
+  for (ChildSlot slot; placer.next_slot(slot);) {
+    if (!(slot.grown_fraction > 0) || is_bare(slot.t)) continue;
+    const std::array<float, 8> roll_deg{slot.roll_deg};
+    add_run(stem, segment, {.first = slot.index, .count = 1, .t_start = slot.t, .roll_deg = roll_deg.data()},
+            slot.grown_fraction);
+  }
 }
 
 void LeafBatch::add_run(const GrowingStem& stem, const Segment& segment, const ChildRun& run,
