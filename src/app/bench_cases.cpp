@@ -30,6 +30,7 @@ struct Setting {
 
   explicit Setting(const BenchCase& of)
       : preset(load_preset(of.species)), model(model_by_name(preset.model)) {
+    for (const auto& [name, value] : of.changes) preset.values[*model.table().find(name)] = value;
     if (!of.leaves) preset.values[*model.table().find("leaf_blos_num")] = 0;
     Plant plant;
     model.generate(preset.values, kTargetSeed, {}, plant);
@@ -118,7 +119,7 @@ std::vector<BenchCase> bench_cases() {
   std::vector<BenchCase> cases;
   for (const char* species : {"quaking_aspen", "lombardy_poplar", "small_pine", "palm", "weeping_willow"})
     for (const int size_px : {128, 256, 512})
-      for (const bool leaves : {true, false}) cases.push_back({species, size_px, leaves});
+      for (const bool leaves : {true, false}) cases.push_back({species, size_px, leaves, {}});
   return cases;
 }
 

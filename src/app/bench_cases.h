@@ -2,6 +2,7 @@
 // on all, and how far the drawn picture is from Embree's. Seconds, bytes and pixels.
 #pragma once
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ struct BenchCase {
   std::string species;
   int size_px = 256;
   bool leaves = true;
+  std::map<std::string, double> changes = {};  ///< parameters set to other values than the preset's
 };
 
 struct BenchResult {

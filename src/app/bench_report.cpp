@@ -66,7 +66,16 @@ std::string bench_table_row(const BenchResult& r) {
                      1e3 * r.compare_s, static_cast<double>(r.bytes_per_thread) / 1e6, differ);
 }
 
-std::string bench_to_json(const std::vector<BenchResult>& results, int threads) {
+std::string bench_scaling_line(const std::vector<ScalingSeries>& scaling) {
+  std::string line = "time of the aspen grows with";
+  for (const ScalingSeries& series : scaling)
+    line += fmt::format("{} {}^{:.2f}", &series == scaling.data() ? "" : ",", series.quantity,
+                        scaling_exponent(series));
+  return line + "\n";
+}
+
+std::string bench_to_json(const std::vector<BenchResult>& results, const std::vector<ScalingSeries>& scaling,
+                          int threads) {
   Json libraries;
   for (const LibraryVersion& library : library_versions()) libraries[library.name] = library.version;
   Json report = {{"machine",
@@ -76,8 +85,12 @@ std::string bench_to_json(const std::vector<BenchResult>& results, int threads) 
                    {"espalier", program_version()},
                    {"commit", build_commit()},
                    {"libraries", libraries}}},
-                 {"cases", Json::array()}};
+                 {"cases", Json::array()},
+                 {"scaling", Json::array()}};
   for (const BenchResult& result : results) report["cases"].push_back(to_json(result));
+  for (const ScalingSeries& series : scaling)
+    report["scaling"].push_back(
+        {{"quantity", series.quantity}, {"exponent", scaling_exponent(series)}, {"points", series.points}});
   return report.dump(2) + "\n";
 }
 
@@ -88,7 +101,7 @@ std::vector<OldBench> read_bench_json(const std::filesystem::path& path) {
     const Json report = Json::parse(file);
     std::vector<OldBench> old;
     for (const Json& c : report.at("cases"))
-      old.push_back({{c.at("species"), c.at("size_px"), c.at("leaves")},
+      old.push_back({{c.at("species"), c.at("size_px"), c.at("leaves"), {}},
                      c.at("evaluations_per_second"),
                      c.at("evaluations_per_second_all_threads")});
     return old;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/bench_cases.h"
+#include "app/bench_scaling.h"
 
 namespace espalier {
 
@@ -12,7 +13,11 @@ std::string bench_table_head(int threads);
 std::string bench_table_row(const BenchResult& result);
 
 /// With the description of the machine: processor, threads, instruction set, versions.
-std::string bench_to_json(const std::vector<BenchResult>& results, int threads);
+std::string bench_to_json(const std::vector<BenchResult>& results, const std::vector<ScalingSeries>& scaling,
+                          int threads);
+
+/// The exponents in a line.
+std::string bench_scaling_line(const std::vector<ScalingSeries>& scaling);
 
 /// Evaluations per second of a case in an older report.
 struct OldBench {

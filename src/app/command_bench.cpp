@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -19,8 +20,16 @@ namespace {
 
 struct BenchOptions {
   double seconds = 0.4;
-  std::string json, compare, only;
+  std::string json, compare, only, plot;
 };
+
+/// As SVG, or as PNG where the name ends so.
+void write_plot(const std::filesystem::path& path, const LineChart& chart) {
+  if (path.extension() == ".png")
+    write_png(path, chart_to_picture(chart));
+  else
+    write_file_atomically(path, chart_to_svg(chart));
+}
 
 void run_bench_command(const BenchOptions& options) {
   if (!(options.seconds > 0))
@@ -42,8 +51,11 @@ void run_bench_command(const BenchOptions& options) {
     fmt::print("{}", bench_table_row(results.back()));
     std::fflush(stdout);
   }
+  const std::vector<ScalingSeries> scaling = measure_scaling(options.seconds / 2, threads);
+  fmt::print("{}", bench_scaling_line(scaling));
+  if (!options.plot.empty()) write_plot(options.plot, scaling_chart(scaling));
   if (!old.empty()) fmt::print("\n{}", bench_ratios(results, old));
-  if (!options.json.empty()) write_file_atomically(options.json, bench_to_json(results, threads));
+  if (!options.json.empty()) write_file_atomically(options.json, bench_to_json(results, scaling, threads));
 }
 
 }  // namespace
@@ -56,6 +68,7 @@ void add_bench_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--species", options->only, "one of the species only");
   command->add_option("--json", options->json, "also write the results, with a description of the machine");
+  command->add_option("--plot", options->plot, "also draw how time grows, as .svg or .png");
   command->add_option("--compare", options->compare, "print ratios to an older report written by --json");
   command->callback([options] { run_bench_command(*options); });
 }

@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/bench_scaling.h"
 #include "support/run_espalier.h"
 
 namespace espalier {
@@ -16,7 +18,9 @@ using testing::HasSubstr;
 
 TEST(BenchCommand, ReportsEveryCaseOfASpecies) {
   const fs::path report = fresh_folder("bench") / "report.json";
-  const ProgramRun run = run_espalier("bench --species palm --seconds 0.01 --json '" + report.string() + "'");
+  const fs::path plot = report.parent_path() / "plot.svg";
+  const ProgramRun run = run_espalier("bench --species palm --seconds 0.01 --json '" + report.string() +
+                                      "' --plot '" + plot.string() + "'");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("palm/256/leaves"));
   const auto json = nlohmann::json::parse(read_text_file(report));
@@ -31,6 +35,11 @@ TEST(BenchCommand, ReportsEveryCaseOfASpecies) {
     EXPECT_LT(c["embree_differing_pixels"].get<double>(), 0.05 * c["set_pixels"].get<double>());
     EXPECT_EQ(c["leaves"].get<bool>(), c["mean_leaves"] > 0);
   }
+  ASSERT_EQ(json["scaling"].size(), 4u);
+  for (const auto& series : json["scaling"])
+    for (const auto& point : series["points"]) EXPECT_GT(point[1], 0) << series["quantity"];
+  EXPECT_GT(json["scaling"][0]["points"][4][0], 4 * json["scaling"][0]["points"][0][0].get<double>());
+  EXPECT_THAT(read_text_file(plot), HasSubstr("stems, slope"));
 }
 
 TEST(BenchCommand, ComparesWithAnOlderReport) {
@@ -42,6 +51,14 @@ TEST(BenchCommand, ComparesWithAnOlderReport) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("new / old"));
   EXPECT_THAT(run.out, HasSubstr("geometric mean"));
+}
+
+TEST(BenchScaling, ExponentIsThatOfThePowerLaw) {
+  ScalingSeries series{"leaves", {}};
+  for (const double leaves : {10.0, 100.0, 3000.0})
+    series.points.emplace_back(leaves, 2e-6 * std::pow(leaves, 0.7));
+  EXPECT_NEAR(scaling_exponent(series), 0.7, 1e-9);
+  EXPECT_EQ(scaling_exponent({"threads", {{1, 0.5}}}), 0);
 }
 
 TEST(BenchCommand, RefusesBadInputInOneLine) {
