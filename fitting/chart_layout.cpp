@@ -9,7 +9,7 @@ namespace espalier {
 
 namespace {
 
-constexpr float kLeftPx = 80, kRightPx = 24, kTopPx = 40, kBottomPx = 64, kTickPx = 6;
+constexpr float kLeftPx = 96, kRightPx = 24, kTopPx = 16, kLegendRowPx = 24, kBottomPx = 64, kTickPx = 6;
 constexpr Rgb kInk{60, 60, 60}, kGrid{225, 225, 225};
 
 struct Axis {
@@ -42,12 +42,29 @@ std::pair<double, double> range_of(const LineChart& chart, bool horizontal) {
   return upper > lower ? std::pair{lower, upper} : std::pair{lower - 0.5, upper + 0.5};
 }
 
+/// Where each line's sample begins in the legend, which takes as many rows above the plot as it needs.
+std::vector<ChartPoint> legend_places(const LineChart& chart) {
+  constexpr float kSamplePx = 32, kLetterPx = 12, kGapPx = 28, kFirstPx = kLeftPx + 12;
+  std::vector<ChartPoint> places;
+  ChartPoint next{kFirstPx, kTopPx};
+  for (const ChartLine& line : chart.lines) {
+    const float width_px = kSamplePx + kLetterPx * static_cast<float>(line.name.size());
+    if (next.x_px > kFirstPx && next.x_px + width_px > static_cast<float>(chart.width_px))
+      next = {kFirstPx, next.y_px + kLegendRowPx};
+    places.push_back(next);
+    next.x_px += width_px + kGapPx;
+  }
+  return places;
+}
+
 Axes make_axes(const LineChart& chart) {
   const auto [x_lower, x_upper] = range_of(chart, true);
   const auto [y_lower, y_upper] = range_of(chart, false);
   const double margin = 0.04 * (y_upper - y_lower);
+  const float top_px =
+      kTopPx + kLegendRowPx + (chart.lines.empty() ? 0 : legend_places(chart).back().y_px - kTopPx);
   return {{std::min(x_lower, 0.0), x_upper, kLeftPx, static_cast<float>(chart.width_px) - kRightPx},
-          {y_lower - margin, y_upper + margin, static_cast<float>(chart.height_px) - kBottomPx, kTopPx}};
+          {y_lower - margin, y_upper + margin, static_cast<float>(chart.height_px) - kBottomPx, top_px}};
 }
 
 void add_axis_lines(const Axes& axes, ChartLayout& layout) {
@@ -86,17 +103,16 @@ void add_line(const Axes& axes, const ChartLine& line, ChartLayout& layout) {
   if (!stroke.points.empty()) layout.strokes.push_back(std::move(stroke));
 }
 
-/// Names in one row above the plot, each after a sample of its line.
 void add_legend(const LineChart& chart, ChartLayout& layout) {
-  float x = kLeftPx + 12;
-  for (const ChartLine& line : chart.lines) {
-    const float y = kTopPx / 2;
+  const std::vector<ChartPoint> places = legend_places(chart);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const ChartLine& line = chart.lines[i];
+    const auto [x, y] = places[i];
     if (line.dots)
       layout.strokes.push_back({{{x + 12, y}}, line.color, line.width_px});
     else
       layout.strokes.push_back({{{x, y}, {x + 24, y}}, line.color, line.width_px});
     layout.labels.push_back({{x + 32, y}, line.name, TextAnchor::start});
-    x += 32 + 12 * static_cast<float>(line.name.size()) + 28;
   }
 }
 

@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "fitting/chart_layout.h"
+
 namespace espalier {
 namespace {
 
@@ -63,7 +65,17 @@ TEST(Chart, OfNothingStillHasAxes) {
 TEST(Chart, DrawsALineInItsColourWhereTheAxesSay) {
   const Rgb red{255, 0, 0};
   const Picture picture = chart_to_picture({"x", "y", {{"line", red, 3, false, {{0, 0}, {10, 10}}}}});
-  EXPECT_EQ(picture.at(80 + (900 - 24 - 80) / 2, 40 + (540 - 64 - 40) / 2), red);
+  EXPECT_EQ(picture.at((96 + 900 - 24) / 2, (40 + 540 - 64) / 2), red);
+}
+
+TEST(Chart, LegendStaysInsideThePictureHoweverManyNames) {
+  LineChart chart{"x", "y", {}};
+  for (int i = 0; i < 7; ++i) chart.lines.push_back({std::string(20, 'n'), {}, 2, false, {{0, 0}, {1, 1}}});
+  for (const ChartLabel& label : lay_out(chart).labels)
+    if (label.anchor == TextAnchor::start) {
+      EXPECT_LE(label.at.x_px + 12 * 20, 900);
+      EXPECT_GE(label.at.y_px, 10);
+    }
 }
 
 }  // namespace
