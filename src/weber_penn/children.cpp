@@ -77,8 +77,20 @@ bool ChildPlacer::next_run(ChildRun& run) {
   run.t_step = inverse_rate_;
   run.t_odd = starts_odd ? shift : -shift;
   run.roll_deg = rolls_deg_.data();
-  for (int k = 0; k < run.count; ++k, ++placed_)
-    rolls_deg_[static_cast<std::size_t>(k)] = next_rotation_deg();
+  const auto rolls_deg = std::span(rolls_deg_).first(static_cast<std::size_t>(run.count));
+  const float rotate = p_.rotate[child_level_];
+  if (rotate < 0 || p_.rotate_v[child_level_] != 0) {
+    for (float& roll_deg : rolls_deg) roll_deg = next_rotation_deg(), ++placed_;
+    return true;
+  }
+  float rotation_deg = rotation_deg_;  // next_rotation_deg, without its choices
+  for (float& roll_deg : rolls_deg) {
+    rotation_deg += rotate;
+    if (rotation_deg > 360) rotation_deg -= 360;
+    roll_deg = rotation_deg;
+  }
+  rotation_deg_ = rotation_deg;
+  placed_ += run.count;
   return true;
 }
 
