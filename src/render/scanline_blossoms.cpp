@@ -74,6 +74,7 @@ void draw_blossoms(const Plant& plant, const Camera& camera, Mask& mask) {
   const LeafOutline& outline = blossom_outline(plant.blossom_shape);
   ESPALIER_CHECK_EQ(outline.vertices.size() <= kMostVertices, true);
   const Leaves& leaves = plant.leaves;
+  if (leaves.size() == 0) return;
   if (std::memchr(leaves.kind.data(), static_cast<int>(LeafKind::blossom), leaves.size()) == nullptr) return;
   const float reach = reach_of(outline);
   for (std::size_t i = 0; i < leaves.size(); ++i) {
