@@ -37,7 +37,15 @@ class InsideTest : public StemVisitor {
   bool inside_ = true;
 };
 
+/// No point of a stem that does not wind is further from its start than it is long.
+bool surely_fits(const GrowingStem& stem, const WeberPennParameters& p) {
+  constexpr float kRounding = 1.001f;
+  return stem.level > 0 && p.curve_v[level_index(stem.level)] >= 0 &&
+         ball_inside_envelope(stem.turtle.position_m, kRounding * stem.length_m, stem.tree.scale_m, p);
+}
+
 bool fits(const GrowingStem& stem, const WeberPennParameters& p, const Volume* volume) {
+  if (volume == nullptr && surely_fits(stem, p)) return true;
   InsideTest test(p, volume);
   walk_stem(stem, p, test);
   return test.inside();

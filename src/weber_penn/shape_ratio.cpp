@@ -35,6 +35,11 @@ float envelope_ratio(float r, const WeberPennParameters& parameters) {
   return std::pow((1 - r) / upper_part, parameters.prune_power_low);
 }
 
+/// Of a height in the tree: 0 at the crown's top, 1 at its base.
+float crown_ratio(float z_m, float tree_scale_m, const WeberPennParameters& parameters) {
+  return (tree_scale_m - z_m) / (tree_scale_m * (1 - parameters.base_size[0]));
+}
+
 }  // namespace
 
 float shape_ratio(int shape, float ratio, const WeberPennParameters& parameters) {
@@ -43,8 +48,20 @@ float shape_ratio(int shape, float ratio, const WeberPennParameters& parameters)
 
 bool inside_envelope(Vec3 point_m, float tree_scale_m, const WeberPennParameters& parameters) {
   const float distance = std::hypot(point_m.x, point_m.y);
-  const float ratio = (tree_scale_m - point_m.z) / (tree_scale_m * (1 - parameters.base_size[0]));
+  const float ratio = crown_ratio(point_m.z, tree_scale_m, parameters);
   return distance / tree_scale_m < parameters.prune_width * shape_ratio(8, ratio, parameters);
+}
+
+// From the top down the envelope widens to its peak, then narrows: between two heights it is nowhere narrower
+// than at the narrower one.
+bool ball_inside_envelope(Vec3 center_m, float radius_m, float tree_scale_m,
+                          const WeberPennParameters& parameters) {
+  const float reach = (std::hypot(center_m.x, center_m.y) + radius_m) / tree_scale_m;
+  const auto is_inside_at = [&](float z_m) {
+    const float ratio = crown_ratio(z_m, tree_scale_m, parameters);
+    return reach < parameters.prune_width * shape_ratio(8, ratio, parameters);
+  };
+  return is_inside_at(center_m.z - radius_m) && is_inside_at(center_m.z + radius_m);
 }
 
 }  // namespace espalier

@@ -13,4 +13,8 @@ float shape_ratio(int shape, float ratio, const WeberPennParameters& parameters)
 /// high as the tree. `point_m` relative to the tree's base.
 bool inside_envelope(Vec3 point_m, float tree_scale_m, const WeberPennParameters& parameters);
 
+/// True only where the whole ball is inside; cheaper than many points, and false near the envelope.
+bool ball_inside_envelope(Vec3 center_m, float radius_m, float tree_scale_m,
+                          const WeberPennParameters& parameters);
+
 }  // namespace espalier

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/random.h"
 #include "weber_penn/shape_ratio.h"
 #include "weber_penn/stem.h"
 
@@ -65,6 +66,28 @@ TEST(Envelope, IsWidestAtItsPeakAndEmptyOutside) {
   EXPECT_FLOAT_EQ(shape_ratio(8, -0.01f, p), 0);
   EXPECT_FLOAT_EQ(shape_ratio(8, 1.01f, p), 0);
   EXPECT_LT(shape_ratio(8, 0.25f, p), 1);
+}
+
+/// A ball that is said to be inside has all its points inside, whatever the envelope.
+TEST(Envelope, HoldsAllPointsOfABallThatIsInside) {
+  int inside = 0;
+  for (unsigned i = 0; i < 20'000; ++i) {
+    const RandomKey key = root_key(i);
+    unsigned n = 0;
+    const auto draw = [&](float most) { return most * uniform_unit(key, 0, n++); };
+    WeberPennParameters p{};
+    p.prune_width = draw(1), p.prune_width_peak = draw(1), p.base_size[0] = draw(0.9f);
+    p.prune_power_low = draw(3), p.prune_power_high = draw(3);
+    const Vec3 center{draw(3), draw(3), draw(10)};
+    const float radius = draw(2);
+    if (!ball_inside_envelope(center, radius, 10, p)) continue;
+    ++inside;
+    for (unsigned k = 0; k < 20; ++k) {
+      const Vec3 to = normalized({2 * draw(1) - 1, 2 * draw(1) - 1, 2 * draw(1) - 1}, {0, 0, 1});
+      ASSERT_TRUE(inside_envelope(center + to * draw(radius), 10, p)) << i;
+    }
+  }
+  EXPECT_GT(inside, 500);
 }
 
 TEST(Envelope, HoldsTheAxisAndNotWhatIsWiderThanItsWidth) {
