@@ -6,22 +6,21 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "image/bit_counter-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace espalier {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 /// Set bits of words_at(d, i), the vector of words from i on, for whole vectors from `first` on.
 /// Moves `first` past them.
 template <class D, class WordsAt>
 std::size_t count_vectors(D d, std::size_t& first, std::size_t end, const WordsAt& words_at) {
-  auto counts = hn::Zero(d);
+  BitCounter<D> counter;
   const std::size_t lanes = hn::Lanes(d);
-  for (; first + lanes <= end; first += lanes)
-    counts = hn::Add(counts, hn::PopulationCount(words_at(d, first)));
-  return hn::GetLane(hn::SumOfLanes(d, counts));
+  for (; first + lanes <= end; first += lanes) counter.add(words_at(d, first));
+  return counter.total();
 }
 
 template <class WordsAt>

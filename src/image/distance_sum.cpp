@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "image/bit_counter-inl.h"
 #include "image/distance.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,7 +20,6 @@ namespace espalier {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
 using Words64 = hn::ScalableTag<std::uint64_t>;
 using Vector = hn::Vec<Words64>;
 
@@ -73,16 +73,16 @@ struct Square {
 template <class Shape>
 std::size_t dilate_and_count(const Columns& over, const Columns& reached, Columns& next) {
   const Words64 d;
-  Vector counts = hn::Zero(d);
+  BitCounter<Words64> beyond;
   for (std::size_t column = 0; column < over.count; ++column) {
     const std::size_t first = over.first_of(column), end = first + over.rows;
     for (std::size_t i = first; i < end; i += hn::Lanes(d)) {
       const std::uint64_t* word = &reached.words[i];
-      counts = hn::Add(counts, hn::PopulationCount(hn::AndNot(load(word), load(&over.words[i]))));
+      beyond.add(hn::AndNot(load(word), load(&over.words[i])));
       hn::StoreU(Shape::dilate(word, over.stride), d, &next.words[i]);
     }
   }
-  return hn::GetLane(hn::SumOfLanes(d, counts));
+  return beyond.total();
 }
 
 // min(d, L) = the number of k in 0..L-1 with d > k. The last dilation is for nothing.
