@@ -8,18 +8,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 
 #include "core/error.h"
 #include "fitting/fit_objective.h"
-#include "fitting/fit_record.h"
 #include "fitting/optimizers/draws.h"
 #include "fitting/plant_scorer.h"
 #include "fitting/rank_correlation.h"
-#include "fitting/start_points.h"
-#include "image/picture.h"
-#include "models/models.h"
-#include "models/preset.h"
+#include "measured_target.h"
 
 namespace espalier {
 namespace {
@@ -46,41 +41,6 @@ constexpr long kSearchEvaluations = 3000;
 constexpr double kNoise = 0.1;  ///< standard deviation around start points, of the width of the search space
 constexpr const char* kKinds[] = {"noisy starts", "whole search", "last third"};
 
-const Model& model() { return model_by_name("weber_penn"); }
-
-/// A picture, or the silhouette of a preset, as a fit with masks of `size_px` sees it.
-class Target {
- public:
-  explicit Target(const std::string& picture_or_preset) : path_(picture_or_preset) {
-    if (!std::filesystem::exists(path_)) draw_preset(picture_or_preset);
-  }
-
-  FitTask task(int size_px) const {
-    const FitRecord defaults;
-    const TargetPicture target = read_target(path_, {.size_px = size_px});
-    FitTask task;
-    task.model = &model();
-    task.growth.budget = defaults.growth;
-    task.plant_seeds = {defaults.seed};
-    task.views.push_back(make_target_view(target.mask, target.tree_height_px, {}, kNominalHeightM));
-    task.objective = parse_objective(defaults.objective);
-    return task;
-  }
-  std::string name() const { return path_.stem().string(); }
-
- private:
-  void draw_preset(const std::string& preset) {
-    Plant plant;
-    model().generate(load_preset(preset).values, 1000, {}, plant);
-    Mask mask;
-    make_scanline_renderer()->draw(plant, frame_bounds(bounds(plant), {}, 1024, 1024), mask);
-    path_ = std::filesystem::temp_directory_path() / ("preset_" + preset + ".png");
-    write_mask_png(path_, mask);
-  }
-
-  std::filesystem::path path_;
-};
-
 /// Remembers what it scores, but for candidates beyond the growth budget: any level ranks those last.
 class RememberingScorer : public Scorer {
  public:
@@ -105,63 +65,43 @@ Candidates spread(const Candidates& all, std::size_t first) {
 }
 
 /// Start points with noise, at most a few thousand tried for those that grow.
-Candidates noisy_starts(const SearchSpace& space, const std::vector<StartPoint>& starts, Scorer& scorer) {
+Candidates noisy_starts(const SearchBeginning& beginning, Scorer& scorer) {
+  const std::vector<StartPoint>& starts = beginning.starts;
   RememberingScorer remembering(scorer);
   for (std::uint64_t tried = 0; tried < 3000 && remembering.grown.size() < kOfEachKind; ++tried) {
     Draws draws = draws_at(root_key(1), 0, tried);
-    std::vector<double> point = space.encode(starts[draws.below(starts.size())].values);
+    std::vector<double> point = beginning.space.encode(starts[draws.below(starts.size())].values);
     for (double& unit : point) unit = std::clamp(unit + kNoise * draws.normal(), 0.0, 1.0);
     ParameterValues values;
-    space.decode(point, values);
+    beginning.space.decode(point, values);
     double score = 0;
     remembering.score({&values, 1}, {&score, 1});
   }
   return remembering.grown;
 }
 
-/// What CMA-ES evaluates from the three best start points, as a fit does.
-Candidates searched(const SearchSpace& space, const std::vector<StartPoint>& starts,
-                    std::span<const std::size_t> order, Scorer& scorer) {
-  std::vector<double> points;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::vector<double> point = space.encode(starts[order[i]].values);
-    points.insert(points.end(), point.begin(), point.end());
-  }
+/// What CMA-ES evaluates.
+Candidates searched(const SearchBeginning& beginning, Scorer& scorer) {
   RememberingScorer remembering(scorer);
   Observer observer;
-  optimizer_by_name("cma_es").minimize(FitObjective(space, remembering), {}, {kSearchEvaluations}, points, 1,
-                                       observer);
+  optimizer_by_name("cma_es").minimize(FitObjective(beginning.space, remembering), {}, {kSearchEvaluations},
+                                       beginning.points(), 1, observer);
   return remembering.grown;
 }
 
-std::vector<std::size_t> best_first(const std::vector<StartPoint>& starts, Scorer& scorer) {
-  Candidates candidates;
-  std::vector<std::size_t> order;
-  for (const StartPoint& start : starts)
-    order.push_back(candidates.size()), candidates.push_back(start.values);
-  std::vector<double> scores(candidates.size());
-  scorer.score(candidates, scores);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return scores[a] < scores[b]; });
-  return order;
-}
-
 /// The candidates in the order of kKinds.
-std::vector<Candidates> collect(const Target& target) {
+std::vector<Candidates> collect(const MeasuredTarget& target) {
   const FitTask task = target.task(kSearchSizePx);
-  PlantScorer scorer(task, 2);
-  const std::vector<StartPoint> starts =
-      make_start_points(model(), "auto", {}, task.growth.budget, kNominalHeightM, task.plant_seeds.front());
-  const std::vector<std::size_t> order = best_first(starts, scorer);
-  const SearchSpace space = make_search_space(model().table(), starts[order[0]].values, {});
-  const Candidates search = searched(space, starts, order, scorer);
-  return {noisy_starts(space, starts, scorer), spread(search, 0), spread(search, search.size() * 2 / 3)};
+  PlantScorer scorer(task, 1);
+  const SearchBeginning beginning = begin_search(task, scorer);
+  const Candidates search = searched(beginning, scorer);
+  return {noisy_starts(beginning, scorer), spread(search, 0), spread(search, search.size() * 2 / 3)};
 }
 
 /// One leaf for `per_kept`, as much larger that the area stays.
 Candidates with_fewer_leaves(Candidates candidates, int per_kept) {
-  const std::size_t count = *model().table().find("leaf_blos_num"),
-                    scale = *model().table().find("leaf_scale");
+  const std::size_t count = *measured_model().table().find("leaf_blos_num"),
+                    scale = *measured_model().table().find("leaf_scale");
   for (ParameterValues& values : candidates) {
     values[count] /= per_kept;
     values[scale] *= std::sqrt(per_kept);
@@ -189,11 +129,13 @@ void keep_each(int k, Leaves& leaves) {
 class ModelWithKeptLeaves : public Model {
  public:
   explicit ModelWithKeptLeaves(int k) : k_(k) {}
-  const ParameterTable& table() const override { return model().table(); }
-  GrowthEstimate estimate(std::span<const double> values) const override { return model().estimate(values); }
+  const ParameterTable& table() const override { return measured_model().table(); }
+  GrowthEstimate estimate(std::span<const double> values) const override {
+    return measured_model().estimate(values);
+  }
   GrowthResult generate(std::span<const double> values, Seed seed, const GrowthSettings& settings,
                         Plant& plant) const override {
-    const GrowthResult result = model().generate(values, seed, settings, plant);
+    const GrowthResult result = measured_model().generate(values, seed, settings, plant);
     keep_each(k_, plant.leaves);
     return result;
   }
@@ -207,7 +149,8 @@ struct LevelScores {
   double ms = 0;  ///< of an evaluation, on one thread
 };
 
-LevelScores score_level(const Target& target, const Level& level, const std::vector<Candidates>& by_kind) {
+LevelScores score_level(const MeasuredTarget& target, const Level& level,
+                        const std::vector<Candidates>& by_kind) {
   FitTask task = target.task(level.size_px);
   const ModelWithKeptLeaves kept_leaves(level.leaves_per_kept);
   if (level.thinning == Thinning::kept) task.model = &kept_leaves;
@@ -238,7 +181,7 @@ std::vector<Level> all_levels() {
   return levels;
 }
 
-void measure(const Target& target) {
+void measure(const MeasuredTarget& target) {
   const std::vector<Candidates> candidates = collect(target);
   const LevelScores full = score_level(target, {kFullSizePx, Thinning::none, 1}, candidates);
   for (const Level& level : all_levels()) {
@@ -259,7 +202,7 @@ int main(int argc, char** argv) {
   using namespace espalier;
   try {
     fmt::print("target,size_px,thinning,leaves_per_kept,ms,{}\n", fmt::join(kKinds, ","));
-    for (int i = 1; i < argc; ++i) measure(Target(argv[i]));
+    for (int i = 1; i < argc; ++i) measure(MeasuredTarget(argv[i]));
   } catch (const InputError& error) {
     fmt::print(stderr, "levels_of_detail: {}\n", error.what());
     return 2;
