@@ -30,20 +30,6 @@ void increment_outside(const Mask& where, std::vector<Mask>& planes) {
 
 }  // namespace
 
-// min(d, L) = the number of k in 0..L-1 with d > k.
-std::size_t sum_distances_px(const Mask& over, const Mask& from, int limit_px) {
-  static thread_local Mask reached, spare;  // memory only: a search asks for millions of distances
-  reached = from;
-  std::size_t sum = 0;
-  for (int k = 0; k < limit_px; ++k) {
-    const std::size_t beyond = count_and_not(over.words(), reached.words());
-    if (beyond == 0) break;
-    sum += beyond;
-    if (k + 1 < limit_px) grow_octagon(reached, k, spare);
-  }
-  return sum;
-}
-
 std::vector<Mask> distance_bit_planes(const Mask& from, int limit_px) {
   const auto plane_count = std::bit_width(static_cast<unsigned>(limit_px));
   std::vector<Mask> planes(plane_count, Mask(from.width_px(), from.height_px()));
