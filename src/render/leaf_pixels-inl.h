@@ -113,8 +113,7 @@ void draw_leaf(const LeafMap& map, const LeafEdges& edges, const PixelRectangle&
           inside_bits<kPerspective>(map, edges, static_cast<float>(column - box.begin_x),
                                     static_cast<float>(row - box.begin_y)) &
           bit_run(0, end - column);
-      words[column >> 6] |= inside << (column & 63);
-      if ((column & 63) + (end - column) > 64) words[(column >> 6) + 1] |= inside >> (64 - (column & 63));
+      set_bits(words, column, inside);
     }
   }
 }

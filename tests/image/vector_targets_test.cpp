@@ -1,26 +1,13 @@
 // All instruction sets of this machine count the same pixels and distances, the scalar one included.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 #include <rapidcheck/gtest.h>
 
 #include "image/compare.h"
 #include "random_masks.h"
+#include "support/only_target.h"
 
 namespace espalier {
 namespace {
-
-/// Uses one instruction set until it goes out of scope.
-class OnlyTarget {
- public:
-  explicit OnlyTarget(std::int64_t target) { use(target); }
-  ~OnlyTarget() { use(0); }
-
- private:
-  static void use(std::int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
 
 RC_GTEST_PROP(VectorTargetsOfMasks, AllGiveTheSameBits, ()) {
   const auto [a, b] = test::draw_pair(300);
