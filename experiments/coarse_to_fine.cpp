@@ -104,13 +104,7 @@ void measure(const MeasuredTarget& target) {
 
 int main(int argc, char** argv) {
   using namespace espalier;
-  try {
-    fmt::print("target,seed");
-    for (const Schedule& schedule : kSchedules) fmt::print(",{}", schedule.name);
-    fmt::print("\n");
-    for (int i = 1; i < argc; ++i) measure(MeasuredTarget(argv[i]));
-  } catch (const InputError& error) {
-    fmt::print(stderr, "coarse_to_fine: {}\n", error.what());
-    return 2;
-  }
+  std::string head = "target,seed";
+  for (const Schedule& schedule : kSchedules) head += fmt::format(",{}", schedule.name);
+  return measure_targets(argc, argv, head, measure);
 }

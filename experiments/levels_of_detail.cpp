@@ -200,11 +200,7 @@ void measure(const MeasuredTarget& target) {
 
 int main(int argc, char** argv) {
   using namespace espalier;
-  try {
-    fmt::print("target,size_px,thinning,leaves_per_kept,ms,{}\n", fmt::join(kKinds, ","));
-    for (int i = 1; i < argc; ++i) measure(MeasuredTarget(argv[i]));
-  } catch (const InputError& error) {
-    fmt::print(stderr, "levels_of_detail: {}\n", error.what());
-    return 2;
-  }
+  return measure_targets(argc, argv,
+                         fmt::format("target,size_px,thinning,leaves_per_kept,ms,{}", fmt::join(kKinds, ",")),
+                         measure);
 }

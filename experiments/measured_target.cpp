@@ -1,8 +1,11 @@
 #include "measured_target.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <numeric>
 
+#include "core/error.h"
 #include "fitting/fit_record.h"
 #include "image/picture.h"
 #include "models/models.h"
@@ -72,6 +75,18 @@ SearchBeginning begin_search(const FitTask& task, Scorer& scorer) {
   for (const std::size_t i : order) beginning.starts.push_back(starts[i]);
   beginning.space = make_search_space(task.model->table(), beginning.starts.front().values, {});
   return beginning;
+}
+
+int measure_targets(int argc, char** argv, const std::string& table_head,
+                    void (*measure)(const MeasuredTarget&)) {
+  try {
+    fmt::print("{}\n", table_head);
+    for (int i = 1; i < argc; ++i) measure(MeasuredTarget(argv[i]));
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}: {}\n", argv[0], error.what());
+    return 2;
+  }
+  return 0;
 }
 
 }  // namespace espalier

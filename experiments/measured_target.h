@@ -40,4 +40,9 @@ struct SearchBeginning {
 /// Scores all presets with `scorer`, as a fit does.
 SearchBeginning begin_search(const FitTask& task, Scorer& scorer);
 
+/// What a program of this folder does with the targets named on its command line, one line of an error where
+/// one is none; the program's exit code.
+int measure_targets(int argc, char** argv, const std::string& table_head,
+                    void (*measure)(const MeasuredTarget&));
+
 }  // namespace espalier

@@ -106,18 +106,6 @@ Mask complement(const Mask& mask) {
   return result;
 }
 
-Mask dilate_plus(const Mask& mask) {
-  Mask result;
-  dilate_plus(mask, result);
-  return result;
-}
-
-Mask dilate_square(const Mask& mask) {
-  Mask result;
-  dilate_square(mask, result);
-  return result;
-}
-
 void dilate_plus(const Mask& mask, Mask& result) {
   result.reset(mask.width_px(), mask.height_px());
   for (int y = 0; y < mask.height_px(); ++y) {

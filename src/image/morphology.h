@@ -6,14 +6,11 @@
 
 namespace espalier {
 
-/// One step of the city-block distance: each set pixel and its 4 neighbours.
-Mask dilate_plus(const Mask& mask);
-
-/// One step of the chessboard distance: each set pixel and its 8 neighbours.
-Mask dilate_square(const Mask& mask);
-
-/// The same into `result`, which keeps its memory; not in place.
+/// One step of the city-block distance into `result`, another mask, which keeps its memory: each set pixel
+/// and its 4 neighbours.
 void dilate_plus(const Mask& mask, Mask& result);
+
+/// One step of the chessboard distance, likewise: each set pixel and its 8 neighbours.
 void dilate_square(const Mask& mask, Mask& result);
 
 /// All pixels within `radius_px` (Euclidean, centre to centre) of a set one.
