@@ -92,8 +92,7 @@ class Growth::StemGrowth : public StemVisitor {
   /// Those of a stem that does not split.
   void all_segments(const GrowingStem& stem, std::span<const Segment> segments) {
     append_knots(stem, segments, growth_.p_, growth_.plant_.knots);
-    if (children_)
-      for (const Segment& segment : segments) bear_children(stem, segment);
+    for (const Segment& segment : segments) bear_children(stem, segment);
   }
 
   void split(const GrowingStem& clone) override { growth_.level_.push_back(clone); }
