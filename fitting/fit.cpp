@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "fitting/fit_objective.h"
 #include "fitting/plant_scorer.h"
+#include "fitting/record_task.h"
 #include "fitting/start_points.h"
 #include "models/models.h"
 
@@ -32,41 +33,9 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// FNV-1a over a mask's bits and the height of its tree, as hexadecimal digits.
-std::uint64_t hash_target(const TargetPicture& target, std::uint64_t hash) {
-  const auto add = [&hash](std::uint64_t word) {
-    for (int i = 0; i < 8; ++i, word >>= 8) hash = (hash ^ (word & 0xff)) * 0x100000001b3ull;
-  };
-  for (const std::uint64_t word : target.mask.words()) add(word);
-  add(static_cast<std::uint64_t>(target.tree_height_px * 256));
-  return hash;
-}
-
-double height_m(const FitRecord& record) { return record.height_m.value_or(kNominalHeightM); }
-
-/// Reads the pictures into the task and their hash into the record.
-void read_views(FitRecord& record, FitTask& task) {
-  std::uint64_t hash = 0xcbf29ce484222325ull;
-  for (const ViewRecord& view : record.views) {
-    const TargetPicture target = read_target(view.picture, record.target);
-    hash = hash_target(target, hash);
-    task.views.push_back(make_target_view(target.mask, target.tree_height_px, view.view, height_m(record)));
-  }
-  const std::string hash_text = fmt::format("{:016x}", hash);
-  if (!record.target_hash.empty() && record.target_hash != hash_text)
-    throw_input_error("{}: got another picture than the run was begun with (hash {}, expected {})",
-                      record.views.front().picture.string(), hash_text, record.target_hash);
-  record.target_hash = hash_text;
-}
-
-FitTask make_task(FitRecord& record, const FitOptions& options) {
-  FitTask task;
-  task.model = options.model ? options.model : &model_by_name(record.model);
-  task.growth.budget = record.growth;
-  task.objective = parse_objective(record.objective);
+FitTask task_of(FitRecord& record, const FitOptions& options) {
+  FitTask task = make_task(record, options.model);
   task.make_renderer = options.make_renderer;
-  for (int i = 0; i < record.fit_seeds; ++i) task.plant_seeds.push_back(record.seed + static_cast<Seed>(i));
-  read_views(record, task);
   return task;
 }
 
@@ -204,7 +173,7 @@ void FitRun::search(const std::vector<StartPoint>& starts, const std::vector<dou
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return scores[a] < scores[b]; });
   const SearchSpace space = make_search_space(task_.model->table(), starts[order[0]].values, record_.search,
-                                              height_m(record_) / kNominalHeightM);
+                                              target_height_m(record_) / kNominalHeightM);
   dimension_ = space.dimension();
   if (stop_requested()) return;
   std::vector<double> points;
@@ -245,11 +214,12 @@ FitResult fit(const FitRecord& given, const fs::path& directory, const FitOption
   options.resume ? check_run_directory(directory) : check_new_directory(directory);
   check_record(given);
   FitRecord record = given;
-  const FitTask task = make_task(record, options);
+  const FitTask task = task_of(record, options);
   const ParameterTable& table = task.model->table();
   check_optimizer(record, make_search_space(table, table.defaults(), record.search));
-  const std::vector<StartPoint> starts = make_start_points(
-      *task.model, record.start, record.search, record.growth, height_m(record), task.plant_seeds.front());
+  const std::vector<StartPoint> starts =
+      make_start_points(*task.model, record.start, record.search, record.growth, target_height_m(record),
+                        task.plant_seeds.front());
   begin_run_directory(directory, {.record = record, .task = task});
   return FitRun(record, task, directory, options).run(starts);
 }

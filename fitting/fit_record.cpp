@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/toml_file.h"
+#include "core/toml_section.h"
 #include "fitting/optimizers/search_method.h"
 #include "image/compare.h"
 #include "models/models.h"
@@ -28,53 +28,7 @@ void check_view(const ViewRecord& view) {
   check_number("--views", view.view.field_of_view_deg, 1, 150, "a field of view in degrees, 1..150");
 }
 
-// Reading: one typed reader a kind of value; each names file, line, key, got and expected.
-
-struct Section {
-  const toml::table& table;
-  const std::string& source;
-
-  const toml::node& node(std::string_view key) const {
-    if (const toml::node* found = table.get(key)) return *found;
-    throw_input_error("{}: key '{}': got nothing, expected it in the record of a run",
-                      toml_location(source, table), key);
-  }
-  [[noreturn]] void fail(std::string_view key, const char* expected) const {
-    throw_input_error("{}: key '{}': got {}, expected {}", toml_location(source, node(key)), key,
-                      describe_toml(node(key)), expected);
-  }
-  std::string text(std::string_view key) const {
-    if (const auto value = node(key).value_exact<std::string>()) return *value;
-    fail(key, "a string");
-  }
-  double number(std::string_view key) const {
-    if (const auto value = node(key).value<double>()) return *value;
-    fail(key, "a number");
-  }
-  std::int64_t whole(std::string_view key) const {
-    if (const auto value = node(key).value_exact<std::int64_t>()) return *value;
-    fail(key, "a whole number");
-  }
-  bool flag(std::string_view key) const {
-    if (const auto value = node(key).value_exact<bool>()) return *value;
-    fail(key, "true or false");
-  }
-  Section section(std::string_view key) const {
-    if (const toml::table* inner = node(key).as_table()) return {*inner, source};
-    fail(key, "a table");
-  }
-  const toml::array& array(std::string_view key) const {
-    if (const toml::array* found = node(key).as_array()) return *found;
-    fail(key, "an array");
-  }
-  std::map<std::string, double> numbers() const {
-    std::map<std::string, double> values;
-    for (const auto& [key, value] : table) values[std::string(key.str())] = number(key.str());
-    return values;
-  }
-};
-
-ViewRecord read_view(const Section& section) {
+ViewRecord read_view(const TomlSection& section) {
   ViewRecord record{section.text("picture"), {}};
   record.view.azimuth_deg = static_cast<float>(section.number("azimuth_deg"));
   record.view.elevation_deg = static_cast<float>(section.number("elevation_deg"));
@@ -83,15 +37,11 @@ ViewRecord read_view(const Section& section) {
   return record;
 }
 
-void read_views(const Section& section, FitRecord& record) {
-  for (const toml::node& node : section.array("views")) {
-    const toml::table* table = node.as_table();
-    if (!table) section.fail("views", "an array of tables");
-    record.views.push_back(read_view({*table, section.source}));
-  }
+void read_views(const TomlSection& section, FitRecord& record) {
+  for (const TomlSection& view : section.sections("views")) record.views.push_back(read_view(view));
 }
 
-void read_target_options(const Section& section, FitRecord& record) {
+void read_target_options(const TomlSection& section, FitRecord& record) {
   record.target.size_px = static_cast<int>(section.whole("size_px"));
   record.target.method = parse_separation_method(section.text("separation"));
   record.target.side = parse_tree_side(section.text("tree_side"));
@@ -100,7 +50,7 @@ void read_target_options(const Section& section, FitRecord& record) {
   record.target_hash = section.text("hash");
 }
 
-void read_budget(const Section& section, FitRecord& record) {
+void read_budget(const TomlSection& section, FitRecord& record) {
   record.budget.evaluations = section.whole("evaluations");
   record.budget.seconds = section.number("seconds");
   record.budget.target_fitness = section.number("target_fitness");
@@ -108,19 +58,15 @@ void read_budget(const Section& section, FitRecord& record) {
   record.growth.max_leaves = section.number("max_leaves");
 }
 
-void read_search(const Section& section, FitRecord& record) {
+void read_search(const TomlSection& section, FitRecord& record) {
   record.start = section.text("start");
-  for (const toml::node& node : section.array("free")) {
-    const auto name = node.value_exact<std::string>();
-    if (!name) section.fail("free", "an array of strings");
-    record.search.free.push_back(*name);
-  }
+  record.search.free = section.texts("free");
   record.search.fixed = section.section("fixed").numbers();
 }
 
-std::optional<FitOutcome> read_outcome(const Section& section) {
+std::optional<FitOutcome> read_outcome(const TomlSection& section) {
   if (!section.table.contains("outcome")) return std::nullopt;
-  const Section outcome = section.section("outcome");
+  const TomlSection outcome = section.section("outcome");
   return FitOutcome{outcome.whole("evaluations"), outcome.text("stopped_by")};
 }
 
@@ -232,7 +178,7 @@ std::string record_to_toml(const FitRecord& record, const std::optional<FitOutco
 RecordedRun read_record(const std::filesystem::path& path) {
   const std::string source = path.string();
   const toml::table document = parse_toml(read_toml_text(path), source);
-  const Section root{document, source};
+  const TomlSection root{document, source};
   if (root.whole("format") != kFormat) root.fail("format", "1, of this version of the program");
   FitRecord record;
   record.model = root.text("model");
@@ -246,7 +192,7 @@ RecordedRun read_record(const std::filesystem::path& path) {
   read_budget(root.section("budget"), record);
   read_search(root.section("search"), record);
   record.optimizer_settings = root.section("optimizer_settings").numbers();
-  const Section versions = root.section("versions");
+  const TomlSection versions = root.section("versions");
   for (const auto& [name, version] : versions.table)
     record.versions[std::string(name.str())] = versions.text(name.str());
   return {record, read_outcome(root)};

@@ -1,0 +1,51 @@
+#include "fitting/record_task.h"
+
+#include "core/error.h"
+#include "image/read_target.h"
+#include "models/models.h"
+
+namespace espalier {
+
+namespace {
+
+/// FNV-1a over a mask's bits and the height of its tree, as hexadecimal digits.
+std::uint64_t hash_target(const TargetPicture& target, std::uint64_t hash) {
+  const auto add = [&hash](std::uint64_t word) {
+    for (int i = 0; i < 8; ++i, word >>= 8) hash = (hash ^ (word & 0xff)) * 0x100000001b3ull;
+  };
+  for (const std::uint64_t word : target.mask.words()) add(word);
+  add(static_cast<std::uint64_t>(target.tree_height_px * 256));
+  return hash;
+}
+
+/// Reads the pictures into the task and their hash into the record.
+void read_views(FitRecord& record, FitTask& task) {
+  std::uint64_t hash = 0xcbf29ce484222325ull;
+  for (const ViewRecord& view : record.views) {
+    const TargetPicture target = read_target(view.picture, record.target);
+    hash = hash_target(target, hash);
+    task.views.push_back(
+        make_target_view(target.mask, target.tree_height_px, view.view, target_height_m(record)));
+  }
+  const std::string hash_text = fmt::format("{:016x}", hash);
+  if (!record.target_hash.empty() && record.target_hash != hash_text)
+    throw_input_error("{}: got another picture than the run was begun with (hash {}, expected {})",
+                      record.views.front().picture.string(), hash_text, record.target_hash);
+  record.target_hash = hash_text;
+}
+
+}  // namespace
+
+double target_height_m(const FitRecord& record) { return record.height_m.value_or(kNominalHeightM); }
+
+FitTask make_task(FitRecord& record, const Model* model) {
+  FitTask task;
+  task.model = model ? model : &model_by_name(record.model);
+  task.growth.budget = record.growth;
+  task.objective = parse_objective(record.objective);
+  for (int i = 0; i < record.fit_seeds; ++i) task.plant_seeds.push_back(record.seed + static_cast<Seed>(i));
+  read_views(record, task);
+  return task;
+}
+
+}  // namespace espalier
