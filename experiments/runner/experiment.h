@@ -1,0 +1,88 @@
+// An experiment as data, read from a TOML file (experiments/*.toml). It has one of three kinds:
+//   [fits]      every target × optimiser × objective × space × start × seed is a run of espalier fit
+//   [pictures]  a sheet of shaded trees: every row of changes × every column of changes is one picture
+//   [growth]    each species is grown with many seeds: how long it takes, how large it gets
+
+#pragma once
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fitting/fit_record.h"
+
+namespace espalier {
+
+/// A picture, or the silhouette of a bundled species or preset file.
+struct TargetDeclaration {
+  std::string name;                ///< in tables and directories
+  std::filesystem::path picture;   ///< empty where it is drawn from a species
+  std::string species;             ///< empty where it is a picture
+  Seed seed = 1;                   ///< of the species' tree
+};
+
+struct OptimizerDeclaration {
+  std::string label, name;
+  OptimizerSettings settings;
+};
+
+struct SpaceDeclaration {
+  std::string label = "default";
+  SearchChoice search;
+};
+
+struct FitsDeclaration {
+  std::vector<TargetDeclaration> targets;
+  std::vector<OptimizerDeclaration> optimizers;
+  std::vector<std::string> objectives;
+  std::vector<SpaceDeclaration> spaces;
+  std::vector<std::string> starts;
+  std::vector<Seed> seeds;
+  FitRecord record;      ///< what all runs share: budget, growth, size, view
+  int unseen_seeds = 0;  ///< trees of the result to grow with seeds that the fit never saw
+};
+
+/// Changes that a row or a column of a sheet makes.
+struct PictureChange {
+  std::string label;
+  std::string species;                  ///< empty: that of the sheet
+  std::map<std::string, double> set;    ///< parameters
+  std::string prune_to;                 ///< a volume [environment/volume.h], empty for none
+};
+
+struct PicturesDeclaration {
+  std::string species;
+  Seed seed = 1;
+  int size_px = 320;
+  double frame_m = 0;  ///< side of each picture, the tree's foot near its bottom; 0: framed one by one
+  std::vector<PictureChange> rows, columns;
+};
+
+struct GrowthDeclaration {
+  std::vector<std::string> species;
+  int seeds = 100;
+};
+
+struct Experiment {
+  std::string name;       ///< of the file, without its suffix
+  std::string title;
+  std::string figure;     ///< of the source, as "4.9, 4.10"
+  std::string published;  ///< what the source found
+  std::string note;       ///< a paragraph for the page
+  std::string text;       ///< the whole file
+  std::optional<FitsDeclaration> fits;
+  std::optional<PicturesDeclaration> pictures;
+  std::optional<GrowthDeclaration> growth;
+
+  std::string kind() const { return fits ? "fits" : pictures ? "pictures" : "growth"; }
+};
+
+/// Reads and checks everything that can be checked before a run: names, ranges, files. Throws InputError with
+/// file, line, key, got and expected.
+Experiment read_experiment(const std::filesystem::path& path);
+
+/// True where both describe the same runs: they may differ in title, figure, published, note and comments.
+bool same_runs(const std::string& text, const std::string& other_text);
+
+}  // namespace espalier

@@ -1,0 +1,153 @@
+#include "experiments/runner/experiment_directory.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "experiments/runner/csv.h"
+
+namespace espalier {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kDeclaration = "experiment.toml";
+constexpr const char* kFinished = "row.json";
+
+void make_directory(const fs::path& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error)
+    throw_input_error("{}: got '{}', expected a directory that can be made", directory.string(),
+                      error.message());
+}
+
+bool holds_files(const fs::path& directory) {
+  for (const auto& entry : fs::directory_iterator(directory))
+    if (entry.path().filename() != "lock") return true;
+  return false;
+}
+
+nlohmann::ordered_json to_json(const Row& row) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [column, text] : row) json[column] = text;
+  return json;
+}
+
+Row row_of(const nlohmann::ordered_json& json) {
+  Row row;
+  for (const auto& [column, text] : json.items()) row.emplace_back(column, text.get<std::string>());
+  return row;
+}
+
+std::string find_text(const Row& row, const std::string& column) {
+  for (const auto& [name, text] : row)
+    if (name == column) return text;
+  return "";
+}
+
+std::vector<std::string> result_cells(const Plan& plan, const RunRow& row) {
+  std::vector<std::string> cells{row.run};
+  for (const std::string& column : plan.label_columns) cells.push_back(find_text(row.labels, column));
+  cells.push_back(row.status);
+  for (const std::string& column : plan.result_columns)
+    cells.push_back(find_text(row.measured.results, column));
+  cells.push_back(row.error);
+  return cells;
+}
+
+CsvTable results_table(const Plan& plan, const std::vector<RunRow>& rows) {
+  CsvTable table;
+  table.columns = {"run"};
+  table.columns.insert(table.columns.end(), plan.label_columns.begin(), plan.label_columns.end());
+  table.columns.push_back("status");
+  table.columns.insert(table.columns.end(), plan.result_columns.begin(), plan.result_columns.end());
+  table.columns.push_back("error");
+  for (const RunRow& row : rows)
+    if (row.status != "left") table.rows.push_back(result_cells(plan, row));
+  return table;
+}
+
+CsvTable times_table(const Plan& plan, const std::vector<RunRow>& rows) {
+  CsvTable table;
+  table.columns = {"run"};
+  table.columns.insert(table.columns.end(), plan.time_columns.begin(), plan.time_columns.end());
+  for (const RunRow& row : rows) {
+    if (row.status != "done") continue;
+    table.rows.push_back({row.run});
+    for (const std::string& column : plan.time_columns)
+      table.rows.back().push_back(find_text(row.measured.times, column));
+  }
+  return table;
+}
+
+}  // namespace
+
+DirectoryLock::DirectoryLock(const fs::path& directory) {
+  make_directory(directory);
+  const fs::path path = directory / "lock";
+  file_ = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+  if (file_ < 0)
+    throw_input_error("{}: got '{}', expected a file that can be written", path.string(), std::strerror(errno));
+  if (flock(file_, LOCK_EX | LOCK_NB) == 0) return;
+  close(file_);
+  throw_input_error("{}: got a directory that another process works in, expected to be alone",
+                    directory.string());
+}
+
+DirectoryLock::~DirectoryLock() { close(file_); }
+
+void check_experiment_directory(const fs::path& directory, const Experiment& experiment) {
+  const fs::path path = directory / kDeclaration;
+  std::error_code error;
+  if (!fs::exists(directory, error)) return;
+  if (!fs::is_directory(directory, error))
+    throw_input_error("{}: got a file, expected a directory", directory.string());
+  if (!fs::exists(path, error)) {
+    if (holds_files(directory))
+      throw_input_error("{}: got a directory with other files, expected a new one or that of '{}'",
+                        directory.string(), experiment.name);
+  } else if (!same_runs(read_file(path), experiment.text)) {
+    throw_input_error("{}: got the directory of another experiment, expected that of '{}' as it is now",
+                      path.string(), experiment.name);
+  }
+}
+
+void write_declaration(const fs::path& directory, const Experiment& experiment) {
+  write_file_atomically(directory / kDeclaration, experiment.text);
+}
+
+fs::path run_directory(const fs::path& experiment_directory, const std::string& run) {
+  return experiment_directory / "runs" / run;
+}
+
+std::optional<Measured> read_finished(const fs::path& directory) {
+  const fs::path path = directory / kFinished;
+  if (!fs::exists(path)) return std::nullopt;
+  try {
+    const auto json = nlohmann::ordered_json::parse(read_file(path));
+    return Measured{row_of(json.at("results")), row_of(json.at("times"))};
+  } catch (const nlohmann::json::exception& error) {
+    throw_input_error("{}: got no row of a run ({}), expected one", path.string(), error.what());
+  }
+}
+
+void write_finished(const fs::path& directory, const Measured& measured) {
+  make_directory(directory);
+  const nlohmann::ordered_json json{{"results", to_json(measured.results)}, {"times", to_json(measured.times)}};
+  write_file_atomically(directory / kFinished, json.dump(2) + "\n");
+}
+
+void write_tables(const fs::path& directory, const Plan& plan, const std::vector<RunRow>& rows) {
+  write_file_atomically(directory / "results.csv", to_csv(results_table(plan, rows)));
+  write_file_atomically(directory / "times.csv", to_csv(times_table(plan, rows)));
+}
+
+}  // namespace espalier

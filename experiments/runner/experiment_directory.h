@@ -1,0 +1,53 @@
+// The directory of an experiment: its declaration, a lock, the drawn targets, one directory a run, and the
+// tables. Everything is written whole, so that an experiment killed at any moment goes on.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/runner/experiment.h"
+#include "experiments/runner/plan.h"
+
+namespace espalier {
+
+/// Holds the directory for this process as long as it lives; the system lets go of it when the process ends,
+/// however it ends.
+class DirectoryLock {
+ public:
+  /// Throws InputError where another process holds it.
+  explicit DirectoryLock(const std::filesystem::path& directory);
+  ~DirectoryLock();
+  DirectoryLock(const DirectoryLock&) = delete;
+  DirectoryLock& operator=(const DirectoryLock&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
+/// Throws InputError where the directory is another experiment's, or holds other files.
+void check_experiment_directory(const std::filesystem::path& directory, const Experiment& experiment);
+
+/// experiment.toml, as the user gave it.
+void write_declaration(const std::filesystem::path& directory, const Experiment& experiment);
+
+/// runs/NAME below the experiment's directory.
+std::filesystem::path run_directory(const std::filesystem::path& experiment_directory, const std::string& run);
+
+/// A row of the experiment's table; no results yet where the run is not done.
+struct RunRow {
+  std::string run;
+  Row labels;
+  std::string status = "left";  ///< "done", "failed", "left"
+  Measured measured;
+  std::string error;
+};
+
+/// The row that a finished run left, if it is there. Failed runs leave none: they are tried again.
+std::optional<Measured> read_finished(const std::filesystem::path& run_directory);
+void write_finished(const std::filesystem::path& run_directory, const Measured& measured);
+
+/// results.csv and times.csv of the runs that are done or have failed.
+void write_tables(const std::filesystem::path& directory, const Plan& plan, const std::vector<RunRow>& rows);
+
+}  // namespace espalier

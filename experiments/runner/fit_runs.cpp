@@ -1,0 +1,209 @@
+#include "experiments/runner/fit_runs.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "experiments/runner/unseen_trees.h"
+#include "fitting/fit.h"
+#include "fitting/record_task.h"
+#include "image/picture.h"
+#include "models/models.h"
+#include "models/preset.h"
+#include "render/silhouette.h"
+
+namespace espalier {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kDrawnTargetPx = 512;
+constexpr double kShortestTree_m = 0.01;
+
+/// A target as fits see it: a picture, and how tall its tree is where that is known.
+struct ReadyTarget {
+  TargetDeclaration declaration;
+  fs::path picture;
+  std::optional<double> height_m;
+};
+
+/// Draws the silhouette of a species, unless an earlier execution did.
+ReadyTarget draw_target(const TargetDeclaration& target, const fs::path& directory) {
+  const Preset preset = load_preset(target.species);
+  Plant plant;
+  if (!model_by_name(preset.model).generate(preset.values, target.seed, {}, plant).grown)
+    throw_input_error("target '{}': got a tree beyond the growth budget, expected a smaller one", target.name);
+  const Bounds box = bounds(plant);
+  if (!(box.upper.z > kShortestTree_m))
+    throw_input_error("target '{}': got a tree without height, expected one to draw", target.name);
+  Mask mask;
+  make_embree_renderer()->draw(plant, frame_bounds(box, {}, kDrawnTargetPx, kDrawnTargetPx), mask);
+  const fs::path path = fs::absolute(directory / "targets" / (directory_name(target.name) + ".png"));
+  if (!fs::exists(path)) {
+    fs::create_directories(path.parent_path());
+    write_mask_png(path, mask);
+  }
+  return {target, path, box.upper.z};
+}
+
+ReadyTarget ready_target(const TargetDeclaration& target, const fs::path& directory) {
+  if (target.species.empty()) return {target, target.picture, std::nullopt};
+  return draw_target(target, directory);
+}
+
+/// One combination of the declaration's lists.
+struct FitCell {
+  std::string name;
+  Row labels;
+  std::string species;  ///< of the target, where it is drawn from one
+  FitRecord record;
+  int unseen_seeds = 0;
+};
+
+/// Whether two records ask for the same: a record on disk also knows its target's hash and its versions.
+bool same_request(FitRecord a, FitRecord b) {
+  for (FitRecord* record : {&a, &b}) record->target_hash.clear(), record->versions.clear();
+  return record_to_toml(a, std::nullopt) == record_to_toml(b, std::nullopt);
+}
+
+/// True where `directory` holds this fit, begun before; one that died before its record was written is
+/// removed.
+bool can_resume(const fs::path& directory, const FitRecord& record) {
+  if (!fs::exists(directory / "run.toml")) {
+    fs::remove_all(directory);
+    return false;
+  }
+  if (!same_request(read_record(directory / "run.toml").record, record))
+    throw_input_error("{}: got the run of another record, expected that of this experiment",
+                      (directory / "run.toml").string());
+  return true;
+}
+
+double share_done(const FitProgress& progress, const FitBudget& budget) {
+  double share = 0;
+  if (budget.seconds > 0) share = progress.seconds / budget.seconds;
+  if (budget.evaluations > 0)
+    share = std::max(share, static_cast<double>(progress.evaluations) / static_cast<double>(budget.evaluations));
+  return std::min(share, 1.0);
+}
+
+void append(Row& row, const std::string& prefix, const UnseenScore& score) {
+  row.emplace_back(prefix + "fitness", table_number(score.fitness));
+  row.emplace_back(prefix + "iou", table_number(score.iou));
+}
+
+Measured measure(const FitResult& result, const FitCell& cell) {
+  Measured measured;
+  const MaskMetrics& metrics = result.metrics;
+  measured.results = {{"fitness", table_number(result.fitness)},
+                      {"iou", table_number(metrics.iou)},
+                      {"tolerant_iou", table_number(metrics.tolerant_iou)},
+                      {"outline_iou", table_number(metrics.outline_iou)},
+                      {"pixel_accuracy", table_number(metrics.pixel_accuracy)},
+                      {"truncated_distance", table_number(metrics.truncated_distance)},
+                      {"evaluations", fmt::format("{}", result.evaluations)},
+                      {"stopped_by", result.stopped_by}};
+  if (cell.unseen_seeds > 0) {
+    const UnseenTrees unseen(cell.record, cell.unseen_seeds);
+    append(measured.results, "unseen_", unseen.score(result.values));
+    if (!cell.species.empty())
+      append(measured.results, "truth_", unseen.score(unseen.truth(cell.species)));
+  }
+  measured.times = {{"seconds", table_number(result.seconds)},
+                    {"evaluations", fmt::format("{}", result.evaluations)}};
+  return measured;
+}
+
+std::optional<Measured> run_cell(const FitCell& cell, const fs::path& directory, const RunContext& context) {
+  FitOptions options;
+  options.threads = 1;
+  options.resume = can_resume(directory, cell.record);
+  options.stop_requested = context.stop_requested;
+  options.on_progress = [&](const FitProgress& progress) {
+    context.on_progress(share_done(progress, cell.record.budget));
+  };
+  const FitResult result = fit(cell.record, directory, options);
+  if (result.stopped_by == "interrupted") return std::nullopt;
+  return measure(result, cell);
+}
+
+/// Names of directories hold the target, the seed and what else varies.
+void add_label(FitCell& cell, const std::string& column, const std::string& label, bool in_name) {
+  cell.labels.emplace_back(column, label);
+  if (in_name) cell.name += (cell.name.empty() ? "" : ",") + label;
+}
+
+/// Every cell with every one of these values, which `set` enters and names.
+template <typename Value, typename Set>
+std::vector<FitCell> expand(const std::vector<FitCell>& cells, const std::string& column,
+                            const std::vector<Value>& values, Set set) {
+  const bool in_name = values.size() > 1 || column == "target" || column == "seed";
+  std::vector<FitCell> expanded;
+  for (const FitCell& cell : cells)
+    for (const Value& value : values) {
+      expanded.push_back(cell);
+      add_label(expanded.back(), column, set(expanded.back(), value), in_name);
+    }
+  return expanded;
+}
+
+std::string set_target(FitCell& cell, const ReadyTarget& target) {
+  cell.species = target.declaration.species;
+  cell.record.views[0].picture = target.picture;
+  if (target.height_m) cell.record.height_m = target.height_m;
+  return target.declaration.name;
+}
+
+std::string set_optimizer(FitCell& cell, const OptimizerDeclaration& optimizer) {
+  cell.record.optimizer = optimizer.name;
+  cell.record.optimizer_settings = optimizer.settings;
+  return optimizer.label;
+}
+
+std::string set_objective(FitCell& cell, const std::string& objective) {
+  return cell.record.objective = objective;
+}
+
+std::string set_space(FitCell& cell, const SpaceDeclaration& space) {
+  cell.record.search = space.search;
+  return space.label;
+}
+
+std::string set_start(FitCell& cell, const std::string& start) { return cell.record.start = start; }
+
+std::string set_seed(FitCell& cell, Seed seed) {
+  cell.record.seed = seed;
+  return fmt::format("{}", seed);
+}
+
+std::vector<FitCell> all_cells(const FitsDeclaration& fits, const std::vector<ReadyTarget>& targets) {
+  std::vector<FitCell> cells{{.record = fits.record, .unseen_seeds = fits.unseen_seeds}};
+  cells = expand(cells, "target", targets, set_target);
+  cells = expand(cells, "optimizer", fits.optimizers, set_optimizer);
+  cells = expand(cells, "objective", fits.objectives, set_objective);
+  cells = expand(cells, "space", fits.spaces, set_space);
+  cells = expand(cells, "start", fits.starts, set_start);
+  return expand(cells, "seed", fits.seeds, set_seed);
+}
+
+}  // namespace
+
+Plan plan_fits(const FitsDeclaration& fits, const fs::path& directory) {
+  Plan plan;
+  plan.label_columns = {"target", "optimizer", "objective", "space", "start", "seed"};
+  plan.result_columns = {"fitness",        "iou",         "tolerant_iou",       "outline_iou",
+                         "pixel_accuracy", "truncated_distance", "evaluations", "stopped_by",
+                         "unseen_fitness", "unseen_iou",  "truth_fitness",      "truth_iou"};
+  plan.time_columns = {"seconds", "evaluations"};
+  std::vector<ReadyTarget> targets;
+  for (const TargetDeclaration& target : fits.targets) targets.push_back(ready_target(target, directory));
+  for (const FitCell& cell : all_cells(fits, targets))
+    plan.runs.push_back({directory_name(cell.name), cell.labels,
+                         [cell](const fs::path& run, const RunContext& context) {
+                           return run_cell(cell, run, context);
+                         }});
+  make_names_unique(plan);
+  return plan;
+}
+
+}  // namespace espalier

@@ -1,0 +1,12 @@
+// Runs of the kind [fits]: each is a run of espalier fit in its own directory, then its result is grown with
+// seeds that the fit never saw.
+#pragma once
+#include "experiments/runner/experiment.h"
+#include "experiments/runner/plan.h"
+
+namespace espalier {
+
+/// Targets that are species are drawn into `directory`/targets. Throws InputError where that fails.
+Plan plan_fits(const FitsDeclaration& fits, const std::filesystem::path& directory);
+
+}  // namespace espalier

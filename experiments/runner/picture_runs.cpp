@@ -1,0 +1,74 @@
+#include "experiments/runner/picture_runs.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "core/error.h"
+#include "environment/volume.h"
+#include "image/picture.h"
+#include "models/models.h"
+#include "models/preset.h"
+#include "render/shaded.h"
+
+namespace espalier {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A row's and a column's changes together; the column's win.
+PictureChange merged(const PictureChange& row, const PictureChange& column) {
+  PictureChange change = row;
+  for (const auto& [name, value] : column.set) change.set[name] = value;
+  if (!column.species.empty()) change.species = column.species;
+  if (!column.prune_to.empty()) change.prune_to = column.prune_to;
+  return change;
+}
+
+Plant grow(const PicturesDeclaration& pictures, const PictureChange& change) {
+  Preset preset = load_preset(change.species.empty() ? pictures.species : change.species);
+  const Model& model = model_by_name(preset.model);
+  for (const auto& [name, value] : change.set) preset.values[model.table().index_of(name)] = value;
+  const auto volume = change.prune_to.empty() ? nullptr : parse_volume(change.prune_to);
+  GrowthSettings settings;
+  settings.prune_to = volume.get();
+  Plant plant;
+  if (!model.generate(preset.values, pictures.seed, settings, plant).grown)
+    throw_input_error("{}: got a tree beyond the growth budget, expected a smaller one", preset.name);
+  return plant;
+}
+
+/// The whole plant, or a frame of a fixed size whose foot is a twentieth above the bottom edge.
+Camera camera_for(const PicturesDeclaration& pictures, const Plant& plant) {
+  const int size = pictures.size_px;
+  if (pictures.frame_m == 0) return frame_bounds(bounds(plant), {}, size, size);
+  return frame_base({}, {}, static_cast<float>(pictures.frame_m / size), size, size,
+                    0.95f * static_cast<float>(size));
+}
+
+Measured draw(const PicturesDeclaration& pictures, const PictureChange& change, const fs::path& directory) {
+  const Plant plant = grow(pictures, change);
+  fs::create_directories(directory);
+  write_png(directory / "picture.png", render_shaded(plant, camera_for(pictures, plant)));
+  return {{{"stems", fmt::format("{}", plant.stems.size())}, {"leaves", fmt::format("{}", plant.leaves.size())}},
+          {}};
+}
+
+}  // namespace
+
+Plan plan_pictures(const PicturesDeclaration& pictures) {
+  Plan plan{.label_columns = {"row", "column"}, .result_columns = {"stems", "leaves"}};
+  for (std::size_t row = 0; row < pictures.rows.size(); ++row)
+    for (std::size_t column = 0; column < pictures.columns.size(); ++column) {
+      const PictureChange change = merged(pictures.rows[row], pictures.columns[column]);
+      plan.runs.push_back({fmt::format("row{}-column{}", row + 1, column + 1),
+                           {{"row", pictures.rows[row].label}, {"column", pictures.columns[column].label}},
+                           [pictures, change](const fs::path& run, const RunContext&) {
+                             return std::optional(draw(pictures, change, run));
+                           }});
+    }
+  return plan;
+}
+
+}  // namespace espalier

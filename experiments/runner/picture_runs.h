@@ -1,0 +1,10 @@
+// Runs of the kind [pictures]: each grows one tree and writes one shaded picture of it.
+#pragma once
+#include "experiments/runner/experiment.h"
+#include "experiments/runner/plan.h"
+
+namespace espalier {
+
+Plan plan_pictures(const PicturesDeclaration& pictures);
+
+}  // namespace espalier

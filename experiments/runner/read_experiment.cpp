@@ -1,0 +1,357 @@
+// Reading experiments. Every reader checks the keys of its table, so that a misspelt one is an error.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.h"
+#include "core/toml_section.h"
+#include "environment/volume.h"
+#include "experiments/runner/experiment.h"
+#include "fitting/optimizers/search_method.h"
+#include "fitting/search_space.h"
+#include "image/compare.h"
+#include "models/models.h"
+#include "models/preset.h"
+
+namespace espalier {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string location(const TomlSection& section, std::string_view key) {
+  return fmt::format("{}: key '{}'", toml_location(section.source, section.node(key)), key);
+}
+
+/// What a check of another part of the program throws, with its place in front.
+template <typename Check>
+auto located(const std::string& place, Check check) {
+  try {
+    return check();
+  } catch (const InputError& error) {
+    throw_input_error("{}: {}", place, error.what());
+  }
+}
+template <typename Check>
+auto located(const TomlSection& section, std::string_view key, Check check) {
+  return located(location(section, key), check);
+}
+
+const toml::array& filled_array(const TomlSection& section, std::string_view key) {
+  const toml::array& array = section.array(key);
+  if (array.empty()) section.fail(key, "at least one value");
+  return array;
+}
+
+std::int64_t whole_between(const TomlSection& section, std::string_view key, std::int64_t lower,
+                           std::int64_t upper, std::int64_t otherwise) {
+  const std::int64_t value = section.whole_or(key, otherwise);
+  if (section.has(key) && (value < lower || value > upper))
+    section.fail(key, fmt::format("a whole number {}..{}", lower, upper));
+  return value;
+}
+
+double positive(const TomlSection& section, std::string_view key, double otherwise) {
+  const double value = section.number_or(key, otherwise);
+  if (section.has(key) && !(value > 0 && std::isfinite(value))) section.fail(key, "a number above 0");
+  return value;
+}
+
+/// An element of an array as a section of its own; a plain string is the value of `shorthand`.
+class Element {
+ public:
+  Element(const TomlSection& parent, std::string_view key, const toml::node& node, std::string_view shorthand)
+      : place_(fmt::format("{}: key '{}'", toml_location(parent.source, node), key)),
+        section_{node.is_table() ? *node.as_table() : table_, parent.source} {
+    if (node.is_table()) return;
+    const auto text = node.value_exact<std::string>();
+    if (!text) throw_input_error("{}: got {}, expected a string or a table", place_, describe_toml(node));
+    table_.insert(shorthand, *text);
+  }
+  Element(const Element&) = delete;
+
+  const TomlSection& section() const { return section_; }
+  const std::string& place() const { return place_; }  ///< for messages
+
+ private:
+  toml::table table_;
+  std::string place_;
+  TomlSection section_;
+};
+
+// Targets.
+
+fs::path data_directory() { return ESPALIER_DATA_DIR; }
+
+/// A bundled target by name, or a picture by its path from the working directory or the experiment's file.
+fs::path find_picture(const Element& element, const std::string& name) {
+  const fs::path beside = fs::path(element.section().source).parent_path() / name;
+  std::error_code error;
+  for (const fs::path& path : {data_directory() / "targets" / (name + ".png"), fs::path(name), beside})
+    if (fs::is_regular_file(path, error)) return fs::absolute(path);
+  std::vector<std::string> bundled;
+  for (const auto& entry : fs::directory_iterator(data_directory() / "targets", error))
+    if (entry.path().extension() == ".png") bundled.push_back(entry.path().stem());
+  std::sort(bundled.begin(), bundled.end());
+  throw_input_error("{}: got '{}', expected a picture or a bundled target like '{}'", element.place(), name,
+                    closest_name(name, bundled));
+}
+
+TargetDeclaration read_target_declaration(const Element& element) {
+  const TomlSection& section = element.section();
+  section.expect_only({"picture", "species", "seed", "name"});
+  TargetDeclaration target;
+  if (section.has("species")) {
+    target.species = section.text("species");
+    target.seed = static_cast<Seed>(whole_between(section, "seed", 0, 1'000'000'000, 1));
+    target.name = section.text_or("name", fs::path(target.species).stem());
+    located(section, "species", [&] { return load_preset(target.species); });
+    return target;
+  }
+  target.picture = find_picture(element, section.text("picture"));
+  target.name = section.text_or("name", target.picture.stem());
+  return target;
+}
+
+std::vector<TargetDeclaration> read_targets(const TomlSection& fits) {
+  std::vector<TargetDeclaration> targets;
+  for (const toml::node& node : filled_array(fits, "targets"))
+    targets.push_back(read_target_declaration(Element(fits, "targets", node, "picture")));
+  return targets;
+}
+
+// Optimisers, objectives, spaces.
+
+std::string label_of(const OptimizerDeclaration& optimizer) {
+  std::string label = optimizer.name;
+  for (const auto& [name, value] : optimizer.settings) label += fmt::format(" {}={:g}", name, value);
+  return label;
+}
+
+OptimizerDeclaration read_optimizer(const Element& element) {
+  OptimizerDeclaration optimizer;
+  const TomlSection& section = element.section();
+  optimizer.name = section.text("name");
+  for (const auto& [key, value] : section.table)
+    if (key != "name" && key != "label")
+      optimizer.settings[std::string(key.str())] = section.number(key.str());
+  located(element.place(), [&] {
+    complete_settings(optimizer.name, optimizer_by_name(optimizer.name).settings(), optimizer.settings);
+    return 0;
+  });
+  optimizer.label = section.text_or("label", label_of(optimizer));
+  return optimizer;
+}
+
+std::vector<OptimizerDeclaration> read_optimizers(const TomlSection& fits) {
+  std::vector<OptimizerDeclaration> optimizers;
+  if (!fits.has("optimizers")) return {{"cma_es", "cma_es", {}}};
+  for (const toml::node& node : filled_array(fits, "optimizers")) {
+    if (node.value_exact<std::string>() == "all")
+      for (const auto& optimizer : all_optimizers())
+        optimizers.push_back({optimizer->name(), optimizer->name(), {}});
+    else
+      optimizers.push_back(read_optimizer(Element(fits, "optimizers", node, "name")));
+  }
+  return optimizers;
+}
+
+std::vector<std::string> read_objectives(const TomlSection& fits, const std::string& otherwise) {
+  if (!fits.has("objectives")) return {otherwise};
+  filled_array(fits, "objectives");
+  const std::vector<std::string> objectives = fits.texts("objectives");
+  for (const std::string& objective : objectives)
+    located(fits, "objectives", [&] { return parse_objective(objective); });
+  return objectives;
+}
+
+SpaceDeclaration read_space(const Element& element) {
+  const TomlSection& section = element.section();
+  section.expect_only({"label", "free", "fixed"});
+  SpaceDeclaration space;
+  space.label = section.text_or("label", "default");
+  if (section.has("free")) space.search.free = section.texts("free");
+  if (section.has("fixed")) space.search.fixed = section.section("fixed").numbers();
+  const ParameterTable& table = model_by_name("weber_penn").table();
+  located(element.place(), [&] {
+    ParameterValues values = table.defaults();
+    apply_fixed(table, space.search, values);
+    return make_search_space(table, values, space.search);
+  });
+  return space;
+}
+
+std::vector<SpaceDeclaration> read_spaces(const TomlSection& fits) {
+  if (!fits.has("spaces")) return {SpaceDeclaration{}};
+  std::vector<SpaceDeclaration> spaces;
+  for (const toml::node& node : filled_array(fits, "spaces"))
+    spaces.push_back(read_space(Element(fits, "spaces", node, "label")));
+  return spaces;
+}
+
+std::vector<std::string> read_starts(const TomlSection& fits) {
+  if (!fits.has("starts")) return {"auto"};
+  filled_array(fits, "starts");
+  return fits.texts("starts");
+}
+
+/// An array of seeds, or how many: 5 is [1, 2, 3, 4, 5].
+std::vector<Seed> read_seeds(const TomlSection& fits) {
+  std::vector<Seed> seeds;
+  if (!fits.has("seeds")) return {1};
+  if (!fits.node("seeds").is_array()) {
+    const std::int64_t count = whole_between(fits, "seeds", 1, 10'000, 1);
+    for (std::int64_t seed = 1; seed <= count; ++seed) seeds.push_back(static_cast<Seed>(seed));
+    return seeds;
+  }
+  for (const toml::node& node : filled_array(fits, "seeds")) {
+    const auto seed = node.value_exact<std::int64_t>();
+    if (!seed || *seed < 0) fits.fail("seeds", "whole numbers from 0");
+    seeds.push_back(static_cast<Seed>(*seed));
+  }
+  return seeds;
+}
+
+void read_view(const TomlSection& fits, View& view) {
+  if (!fits.has("view")) return;
+  view = located(fits, "view", [&] { return parse_view("picture:" + fits.text("view")).view; });
+}
+
+/// Budget, growth, size: as the options of espalier fit.
+FitRecord read_shared_record(const TomlSection& fits) {
+  FitRecord record;
+  record.views.emplace_back();
+  read_view(fits, record.views[0].view);
+  record.budget.evaluations = whole_between(fits, "evaluations", 1, 1'000'000'000, 0);
+  record.budget.seconds = positive(fits, "seconds", record.budget.evaluations > 0 ? 0 : record.budget.seconds);
+  record.budget.target_fitness = fits.number_or("target_fitness", 0);
+  record.target.size_px = static_cast<int>(whole_between(fits, "size", 16, 4096, record.target.size_px));
+  record.fit_seeds = static_cast<int>(whole_between(fits, "fit_seeds", 1, 1000, record.fit_seeds));
+  record.growth.max_stems = positive(fits, "max_stems", record.growth.max_stems);
+  record.growth.max_leaves = positive(fits, "max_leaves", record.growth.max_leaves);
+  if (fits.has("height")) record.height_m = positive(fits, "height", 10);
+  return record;
+}
+
+FitsDeclaration read_fits(const TomlSection& fits) {
+  fits.expect_only({"targets", "optimizers", "objectives", "spaces", "starts", "seeds", "evaluations",
+                    "seconds", "target_fitness", "size", "view", "fit_seeds", "height", "max_stems",
+                    "max_leaves", "unseen_seeds"});
+  FitsDeclaration declaration;
+  declaration.record = read_shared_record(fits);
+  declaration.targets = read_targets(fits);
+  declaration.optimizers = read_optimizers(fits);
+  declaration.objectives = read_objectives(fits, declaration.record.objective);
+  declaration.spaces = read_spaces(fits);
+  declaration.starts = read_starts(fits);
+  declaration.seeds = read_seeds(fits);
+  declaration.unseen_seeds = static_cast<int>(whole_between(fits, "unseen_seeds", 0, 1000, 0));
+  return declaration;
+}
+
+// Sheets of pictures.
+
+PictureChange read_change(const TomlSection& section, const std::string& species) {
+  section.expect_only({"label", "species", "set", "prune_to"});
+  PictureChange change;
+  change.label = section.text_or("label", "");
+  change.species = section.text_or("species", "");
+  const std::string grown = change.species.empty() ? species : change.species;
+  if (section.has("set")) {
+    const TomlSection set = section.section("set");
+    const Preset preset = located(section, "set", [&] { return load_preset(grown); });
+    const ParameterTable& table = model_by_name(preset.model).table();
+    change.set = set.numbers();
+    for (const auto& [name, value] : change.set)
+      located(set, name, [&] {
+        check_value(table.rows[table.index_of(name)], value, "parameter " + name);
+        return 0;
+      });
+  } else if (section.has("species")) {
+    located(section, "species", [&] { return load_preset(grown); });
+  }
+  change.prune_to = section.text_or("prune_to", "");
+  if (!change.prune_to.empty())
+    located(section, "prune_to", [&] { return parse_volume(change.prune_to) != nullptr; });
+  return change;
+}
+
+std::vector<PictureChange> read_changes(const TomlSection& pictures, const char* key, const std::string& species) {
+  if (!pictures.has(key)) return {PictureChange{}};
+  filled_array(pictures, key);
+  std::vector<PictureChange> changes;
+  for (const TomlSection& section : pictures.sections(key)) changes.push_back(read_change(section, species));
+  return changes;
+}
+
+PicturesDeclaration read_pictures(const TomlSection& pictures) {
+  pictures.expect_only({"species", "seed", "size", "frame_m", "rows", "columns"});
+  PicturesDeclaration declaration;
+  declaration.species = pictures.text("species");
+  located(pictures, "species", [&] { return load_preset(declaration.species); });
+  declaration.seed = static_cast<Seed>(whole_between(pictures, "seed", 0, 1'000'000'000, 1));
+  declaration.size_px = static_cast<int>(whole_between(pictures, "size", 16, 4096, declaration.size_px));
+  declaration.frame_m = positive(pictures, "frame_m", 0);
+  declaration.rows = read_changes(pictures, "rows", declaration.species);
+  declaration.columns = read_changes(pictures, "columns", declaration.species);
+  return declaration;
+}
+
+// Growth.
+
+GrowthDeclaration read_growth(const TomlSection& growth) {
+  growth.expect_only({"species", "seeds"});
+  GrowthDeclaration declaration;
+  declaration.species = bundled_presets();
+  if (growth.has("species")) {
+    filled_array(growth, "species");
+    declaration.species = growth.texts("species");
+    for (const std::string& species : declaration.species)
+      located(growth, "species", [&] { return load_preset(species); });
+  }
+  declaration.seeds = static_cast<int>(whole_between(growth, "seeds", 1, 100'000, declaration.seeds));
+  return declaration;
+}
+
+const std::vector<std::string> kWords{"title", "figure", "published", "note"};
+const std::vector<std::string> kKinds{"fits", "pictures", "growth"};
+
+void read_kind(const TomlSection& root, Experiment& experiment) {
+  const auto count = std::count_if(kKinds.begin(), kKinds.end(), [&](const auto& kind) { return root.has(kind); });
+  if (count != 1)
+    throw_input_error("{}: got {} of the tables [{}], expected one of them", root.source, count,
+                      fmt::join(kKinds, "], ["));
+  if (root.has("fits")) experiment.fits = read_fits(root.section("fits"));
+  if (root.has("pictures")) experiment.pictures = read_pictures(root.section("pictures"));
+  if (root.has("growth")) experiment.growth = read_growth(root.section("growth"));
+}
+
+}  // namespace
+
+Experiment read_experiment(const fs::path& path) {
+  Experiment experiment;
+  experiment.name = path.stem();
+  experiment.text = read_toml_text(path);
+  const toml::table document = parse_toml(experiment.text, path.string());
+  const TomlSection root{document, path.string()};
+  std::vector<std::string> known = kWords;
+  known.insert(known.end(), kKinds.begin(), kKinds.end());
+  root.expect_only(known);
+  experiment.title = root.text_or("title", experiment.name);
+  experiment.figure = root.text_or("figure", "");
+  experiment.published = root.text_or("published", "");
+  experiment.note = root.text_or("note", "");
+  read_kind(root, experiment);
+  return experiment;
+}
+
+bool same_runs(const std::string& text, const std::string& other_text) {
+  const auto runs_of = [](const std::string& source) {
+    toml::table table = parse_toml(source, "experiment.toml");
+    for (const std::string& word : kWords) table.erase(word);
+    return table;
+  };
+  return runs_of(text) == runs_of(other_text);
+}
+
+}  // namespace espalier

@@ -1,0 +1,134 @@
+#include "experiments/runner/run_experiment.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <numeric>
+#include <thread>
+
+#include "experiments/runner/fit_runs.h"
+#include "experiments/runner/growth_runs.h"
+#include "experiments/runner/picture_runs.h"
+
+namespace espalier {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What the threads share: the next run to take, how far each has come, and the rows.
+class Runner {
+ public:
+  Runner(const fs::path& directory, const RunnerOptions& options, ExperimentOutcome& outcome)
+      : directory_(directory),
+        options_(options),
+        outcome_(outcome),
+        done_share_(outcome.rows.size()),
+        done_before_(std::count_if(outcome.rows.begin(), outcome.rows.end(),
+                                   [](const RunRow& row) { return row.status == "done"; })) {}
+
+  void work() {
+    while (!options_.stop_requested()) {
+      const std::size_t index = next_++;
+      if (index >= outcome_.rows.size()) return;
+      if (outcome_.rows[index].status == "left") run(index);
+    }
+  }
+
+ private:
+  void run(std::size_t index) {
+    RunRow row = outcome_.rows[index];
+    const RunContext context{options_.stop_requested, [&](double share) { report(index, share); }};
+    const fs::path run = run_directory(directory_, row.run);
+    try {
+      if (const auto measured = outcome_.plan.runs[index].execute(run, context)) {
+        write_finished(run, *measured);
+        row.measured = *measured;
+        row.status = "done";
+      }
+    } catch (const std::exception& error) {
+      row.status = "failed";
+      row.error = error.what();
+    }
+    finish(index, row);
+  }
+
+  void finish(std::size_t index, const RunRow& row) {
+    const std::lock_guard guard(mutex_);
+    outcome_.rows[index] = row;
+    done_share_[index] = 1;
+    write_tables(directory_, outcome_.plan, outcome_.rows);
+    report_all();
+  }
+
+  void report(std::size_t index, double share) {
+    const std::lock_guard guard(mutex_);
+    done_share_[index] = share;
+    report_all();
+  }
+
+  void report_all() const {
+    ExperimentProgress progress{outcome_.rows.size(), 0, 0, {}};
+    for (const RunRow& row : outcome_.rows) progress.done += row.status == "done", progress.failed += row.status == "failed";
+    const double worked = std::accumulate(done_share_.begin(), done_share_.end(), 0.0);
+    const double left = static_cast<double>(outcome_.rows.size() - done_before_) - worked;
+    const double seconds = std::chrono::duration<double>(Clock::now() - began_).count();
+    if (worked > 0) progress.seconds_left = left * seconds / worked;
+    options_.on_progress(progress);
+  }
+
+  const fs::path& directory_;
+  const RunnerOptions& options_;
+  ExperimentOutcome& outcome_;
+  std::atomic<std::size_t> next_ = 0;
+  std::mutex mutex_;
+  std::vector<double> done_share_;  ///< of each run, in this execution
+  std::size_t done_before_;
+  Clock::time_point began_ = Clock::now();
+};
+
+std::vector<RunRow> begin_rows(const Plan& plan, const fs::path& directory) {
+  std::vector<RunRow> rows;
+  for (const PlannedRun& run : plan.runs) {
+    rows.push_back({.run = run.name, .labels = run.labels});
+    if (const auto measured = read_finished(run_directory(directory, run.name)))
+      rows.back().measured = *measured, rows.back().status = "done";
+  }
+  return rows;
+}
+
+int job_count(const Plan& plan, const RunnerOptions& options) {
+  if (plan.one_at_a_time) return 1;
+  const int jobs = options.jobs > 0 ? options.jobs : static_cast<int>(std::thread::hardware_concurrency());
+  return std::clamp(jobs, 1, static_cast<int>(std::max<std::size_t>(1, plan.runs.size())));
+}
+
+}  // namespace
+
+Plan plan_of(const Experiment& experiment, const fs::path& directory) {
+  if (experiment.fits) return plan_fits(*experiment.fits, directory);
+  if (experiment.pictures) return plan_pictures(*experiment.pictures);
+  return plan_growth(*experiment.growth);
+}
+
+ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& directory,
+                                 const RunnerOptions& options) {
+  check_experiment_directory(directory, experiment);
+  const DirectoryLock lock(directory);
+  check_experiment_directory(directory, experiment);  // another process may have been quicker
+  write_declaration(directory, experiment);
+  ExperimentOutcome outcome;
+  outcome.plan = plan_of(experiment, directory);
+  outcome.rows = begin_rows(outcome.plan, directory);
+  Runner runner(directory, options, outcome);
+  std::vector<std::jthread> threads;
+  for (int i = 0; i < job_count(outcome.plan, options); ++i) threads.emplace_back([&] { runner.work(); });
+  threads.clear();
+  write_tables(directory, outcome.plan, outcome.rows);
+  return outcome;
+}
+
+}  // namespace espalier

@@ -1,0 +1,31 @@
+// How parameters do with other random numbers: a fit knows the trees of its own seeds, but its parameters
+// describe a species. Trees of new seeds show what was learnt of it, and those of the true parameters, where
+// they are known, the line to beat.
+#pragma once
+#include <string>
+
+#include "fitting/fit_record.h"
+#include "fitting/fit_task.h"
+
+namespace espalier {
+
+struct UnseenScore {
+  double fitness = 0, iou = 0;  ///< means over the trees
+};
+
+class UnseenTrees {
+ public:
+  /// `count` seeds that a fit of this record never uses, against its target.
+  UnseenTrees(FitRecord record, int count);
+
+  UnseenScore score(const ParameterValues& values) const;
+
+  /// The values of a species as fits begin with them: as tall as the target, the size not varying.
+  ParameterValues truth(const std::string& species) const;
+
+ private:
+  FitRecord record_;
+  FitTask task_;
+};
+
+}  // namespace espalier
