@@ -15,6 +15,7 @@ pkg_check_modules(assimp REQUIRED IMPORTED_TARGET GLOBAL assimp)
 add_library(assimp::assimp ALIAS PkgConfig::assimp)
 find_package(embree 3 REQUIRED)
 find_package(HWY REQUIRED)
+find_package(Boost 1.74 REQUIRED)  # headers only: Boost.Math
 # Two Debian packages share the name NLopt; the C++ build holds every algorithm, AGS too.
 set(NLopt_DIR /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/nlopt_cxx CACHE PATH "NLopt built with its C++ algorithms")
 find_package(NLopt REQUIRED)
