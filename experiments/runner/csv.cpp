@@ -84,15 +84,16 @@ double CsvTable::number(std::size_t row, const std::string& column) const {
 
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
+  std::string quoted;
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return fmt::format("\"{}\"", quoted);
 }
 
 std::string csv_line(const std::vector<std::string>& cells) {
   std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? "," : "") + csv_cell(cells[i]);
-  return line + "\n";
+  for (const std::string& cell : cells) line.append(csv_cell(cell)).append(",");
+  if (!line.empty()) line.pop_back();
+  return line.append("\n");
 }
 
 std::string to_csv(const CsvTable& table) {
@@ -106,7 +107,8 @@ CsvTable read_csv(const std::filesystem::path& path) {
   table.source = path.string();
   const std::string text = read_file(path);
   CsvReader reader(text, table.source);
-  if (!reader.next_line(table.columns)) throw_input_error("{}: got an empty file, expected a table", table.source);
+  if (!reader.next_line(table.columns))
+    throw_input_error("{}: got an empty file, expected a table", table.source);
   for (std::vector<std::string> cells; reader.next_line(cells);) {
     if (cells.size() != table.columns.size())
       throw_input_error("{}:{}: got {} cells, expected {}", table.source, reader.line(), cells.size(),

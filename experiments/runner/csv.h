@@ -23,7 +23,8 @@ std::string csv_cell(const std::string& text);
 std::string csv_line(const std::vector<std::string>& cells);
 std::string to_csv(const CsvTable& table);
 
-/// Throws InputError where the file cannot be read, a quote does not end, or a row has too few or too many cells.
+/// Throws InputError where the file cannot be read, a quote does not end, or a row has too few or too many
+/// cells.
 CsvTable read_csv(const std::filesystem::path& path);
 
 }  // namespace espalier

@@ -16,10 +16,10 @@ namespace espalier {
 
 /// A picture, or the silhouette of a bundled species or preset file.
 struct TargetDeclaration {
-  std::string name;                ///< in tables and directories
-  std::filesystem::path picture;   ///< empty where it is drawn from a species
-  std::string species;             ///< empty where it is a picture
-  Seed seed = 1;                   ///< of the species' tree
+  std::string name;               ///< in tables and directories
+  std::filesystem::path picture;  ///< empty where it is drawn from a species
+  std::string species;            ///< empty where it is a picture
+  Seed seed = 1;                  ///< of the species' tree
 };
 
 struct OptimizerDeclaration {
@@ -46,9 +46,9 @@ struct FitsDeclaration {
 /// Changes that a row or a column of a sheet makes.
 struct PictureChange {
   std::string label;
-  std::string species;                  ///< empty: that of the sheet
-  std::map<std::string, double> set;    ///< parameters
-  std::string prune_to;                 ///< a volume [environment/volume.h], empty for none
+  std::string species;                ///< empty: that of the sheet
+  std::map<std::string, double> set;  ///< parameters
+  std::string prune_to;               ///< a volume [environment/volume.h], empty for none
 };
 
 struct PicturesDeclaration {
@@ -65,7 +65,7 @@ struct GrowthDeclaration {
 };
 
 struct Experiment {
-  std::string name;       ///< of the file, without its suffix
+  std::string name;  ///< of the file, without its suffix
   std::string title;
   std::string figure;     ///< of the source, as "4.9, 4.10"
   std::string published;  ///< what the source found

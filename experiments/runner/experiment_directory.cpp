@@ -95,7 +95,8 @@ DirectoryLock::DirectoryLock(const fs::path& directory) {
   const fs::path path = directory / "lock";
   file_ = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
   if (file_ < 0)
-    throw_input_error("{}: got '{}', expected a file that can be written", path.string(), std::strerror(errno));
+    throw_input_error("{}: got '{}', expected a file that can be written", path.string(),
+                      std::strerror(errno));
   if (flock(file_, LOCK_EX | LOCK_NB) == 0) return;
   close(file_);
   throw_input_error("{}: got a directory that another process works in, expected to be alone",
@@ -141,7 +142,8 @@ std::optional<Measured> read_finished(const fs::path& directory) {
 
 void write_finished(const fs::path& directory, const Measured& measured) {
   make_directory(directory);
-  const nlohmann::ordered_json json{{"results", to_json(measured.results)}, {"times", to_json(measured.times)}};
+  const nlohmann::ordered_json json{{"results", to_json(measured.results)},
+                                    {"times", to_json(measured.times)}};
   write_file_atomically(directory / kFinished, json.dump(2) + "\n");
 }
 

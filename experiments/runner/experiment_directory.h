@@ -32,7 +32,8 @@ void check_experiment_directory(const std::filesystem::path& directory, const Ex
 void write_declaration(const std::filesystem::path& directory, const Experiment& experiment);
 
 /// runs/NAME below the experiment's directory.
-std::filesystem::path run_directory(const std::filesystem::path& experiment_directory, const std::string& run);
+std::filesystem::path run_directory(const std::filesystem::path& experiment_directory,
+                                    const std::string& run);
 
 /// A row of the experiment's table; no results yet where the run is not done.
 struct RunRow {

@@ -32,7 +32,8 @@ ReadyTarget draw_target(const TargetDeclaration& target, const fs::path& directo
   const Preset preset = load_preset(target.species);
   Plant plant;
   if (!model_by_name(preset.model).generate(preset.values, target.seed, {}, plant).grown)
-    throw_input_error("target '{}': got a tree beyond the growth budget, expected a smaller one", target.name);
+    throw_input_error("target '{}': got a tree beyond the growth budget, expected a smaller one",
+                      target.name);
   const Bounds box = bounds(plant);
   if (!(box.upper.z > kShortestTree_m))
     throw_input_error("target '{}': got a tree without height, expected one to draw", target.name);
@@ -83,7 +84,8 @@ double share_done(const FitProgress& progress, const FitBudget& budget) {
   double share = 0;
   if (budget.seconds > 0) share = progress.seconds / budget.seconds;
   if (budget.evaluations > 0)
-    share = std::max(share, static_cast<double>(progress.evaluations) / static_cast<double>(budget.evaluations));
+    share =
+        std::max(share, static_cast<double>(progress.evaluations) / static_cast<double>(budget.evaluations));
   return std::min(share, 1.0);
 }
 
@@ -106,8 +108,7 @@ Measured measure(const FitResult& result, const FitCell& cell) {
   if (cell.unseen_seeds > 0) {
     const UnseenTrees unseen(cell.record, cell.unseen_seeds);
     append(measured.results, "unseen_", unseen.score(result.values));
-    if (!cell.species.empty())
-      append(measured.results, "truth_", unseen.score(unseen.truth(cell.species)));
+    if (!cell.species.empty()) append(measured.results, "truth_", unseen.score(unseen.truth(cell.species)));
   }
   measured.times = {{"seconds", table_number(result.seconds)},
                     {"evaluations", fmt::format("{}", result.evaluations)}};
@@ -191,17 +192,16 @@ std::vector<FitCell> all_cells(const FitsDeclaration& fits, const std::vector<Re
 Plan plan_fits(const FitsDeclaration& fits, const fs::path& directory) {
   Plan plan;
   plan.label_columns = {"target", "optimizer", "objective", "space", "start", "seed"};
-  plan.result_columns = {"fitness",        "iou",         "tolerant_iou",       "outline_iou",
-                         "pixel_accuracy", "truncated_distance", "evaluations", "stopped_by",
-                         "unseen_fitness", "unseen_iou",  "truth_fitness",      "truth_iou"};
+  plan.result_columns = {
+      "fitness",     "iou",        "tolerant_iou",   "outline_iou", "pixel_accuracy", "truncated_distance",
+      "evaluations", "stopped_by", "unseen_fitness", "unseen_iou",  "truth_fitness",  "truth_iou"};
   plan.time_columns = {"seconds", "evaluations"};
   std::vector<ReadyTarget> targets;
   for (const TargetDeclaration& target : fits.targets) targets.push_back(ready_target(target, directory));
   for (const FitCell& cell : all_cells(fits, targets))
-    plan.runs.push_back({directory_name(cell.name), cell.labels,
-                         [cell](const fs::path& run, const RunContext& context) {
-                           return run_cell(cell, run, context);
-                         }});
+    plan.runs.push_back(
+        {directory_name(cell.name), cell.labels,
+         [cell](const fs::path& run, const RunContext& context) { return run_cell(cell, run, context); }});
   make_names_unique(plan);
   return plan;
 }

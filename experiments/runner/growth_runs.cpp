@@ -75,8 +75,9 @@ std::optional<Measured> grow_species(const std::string& species, int seeds, cons
   fs::create_directories(directory);
   write_file_atomically(directory / "samples.csv", to_csv(samples));
   const auto mean = [&](double total) { return table_number(total / seeds); };
-  return Measured{{{"stems", mean(totals.stems)}, {"knots", mean(totals.knots)}, {"leaves", mean(totals.leaves)}},
-                  {{"seconds_per_tree", mean(totals.seconds)}}};
+  return Measured{
+      {{"stems", mean(totals.stems)}, {"knots", mean(totals.knots)}, {"leaves", mean(totals.leaves)}},
+      {{"seconds_per_tree", mean(totals.seconds)}}};
 }
 
 }  // namespace

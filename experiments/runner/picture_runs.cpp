@@ -51,8 +51,9 @@ Measured draw(const PicturesDeclaration& pictures, const PictureChange& change, 
   const Plant plant = grow(pictures, change);
   fs::create_directories(directory);
   write_png(directory / "picture.png", render_shaded(plant, camera_for(pictures, plant)));
-  return {{{"stems", fmt::format("{}", plant.stems.size())}, {"leaves", fmt::format("{}", plant.leaves.size())}},
-          {}};
+  return {
+      {{"stems", fmt::format("{}", plant.stems.size())}, {"leaves", fmt::format("{}", plant.leaves.size())}},
+      {}};
 }
 
 }  // namespace

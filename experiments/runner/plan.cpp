@@ -13,7 +13,8 @@ std::string table_number(double value) { return fmt::format("{:.6g}", value); }
 std::string directory_name(const std::string& text) {
   std::string name = text;
   for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string("_.=-").find(c) == std::string::npos) c = '-';
+    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string("_.=-").find(c) == std::string::npos)
+      c = '-';
   return name;
 }
 

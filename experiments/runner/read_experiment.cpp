@@ -223,7 +223,8 @@ FitRecord read_shared_record(const TomlSection& fits) {
   record.views.emplace_back();
   read_view(fits, record.views[0].view);
   record.budget.evaluations = whole_between(fits, "evaluations", 1, 1'000'000'000, 0);
-  record.budget.seconds = positive(fits, "seconds", record.budget.evaluations > 0 ? 0 : record.budget.seconds);
+  record.budget.seconds =
+      positive(fits, "seconds", record.budget.evaluations > 0 ? 0 : record.budget.seconds);
   record.budget.target_fitness = fits.number_or("target_fitness", 0);
   record.target.size_px = static_cast<int>(whole_between(fits, "size", 16, 4096, record.target.size_px));
   record.fit_seeds = static_cast<int>(whole_between(fits, "fit_seeds", 1, 1000, record.fit_seeds));
@@ -276,7 +277,8 @@ PictureChange read_change(const TomlSection& section, const std::string& species
   return change;
 }
 
-std::vector<PictureChange> read_changes(const TomlSection& pictures, const char* key, const std::string& species) {
+std::vector<PictureChange> read_changes(const TomlSection& pictures, const char* key,
+                                        const std::string& species) {
   if (!pictures.has(key)) return {PictureChange{}};
   filled_array(pictures, key);
   std::vector<PictureChange> changes;
@@ -317,7 +319,8 @@ const std::vector<std::string> kWords{"title", "figure", "published", "note"};
 const std::vector<std::string> kKinds{"fits", "pictures", "growth"};
 
 void read_kind(const TomlSection& root, Experiment& experiment) {
-  const auto count = std::count_if(kKinds.begin(), kKinds.end(), [&](const auto& kind) { return root.has(kind); });
+  const auto count =
+      std::count_if(kKinds.begin(), kKinds.end(), [&](const auto& kind) { return root.has(kind); });
   if (count != 1)
     throw_input_error("{}: got {} of the tables [{}], expected one of them", root.source, count,
                       fmt::join(kKinds, "], ["));

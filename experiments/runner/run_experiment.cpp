@@ -72,7 +72,8 @@ class Runner {
 
   void report_all() const {
     ExperimentProgress progress{outcome_.rows.size(), 0, 0, {}};
-    for (const RunRow& row : outcome_.rows) progress.done += row.status == "done", progress.failed += row.status == "failed";
+    for (const RunRow& row : outcome_.rows)
+      progress.done += row.status == "done", progress.failed += row.status == "failed";
     const double worked = std::accumulate(done_share_.begin(), done_share_.end(), 0.0);
     const double left = static_cast<double>(outcome_.rows.size() - done_before_) - worked;
     const double seconds = std::chrono::duration<double>(Clock::now() - began_).count();

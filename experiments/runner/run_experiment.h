@@ -16,9 +16,10 @@ struct ExperimentProgress {
 };
 
 struct RunnerOptions {
-  int jobs = 0;                                             ///< runs at once; 0: one a processor
+  int jobs = 0;  ///< runs at once; 0: one a processor
   std::function<bool()> stop_requested = [] { return false; };
-  std::function<void(const ExperimentProgress&)> on_progress = [](const ExperimentProgress&) {};  ///< of any thread
+  std::function<void(const ExperimentProgress&)> on_progress = [](const ExperimentProgress&) {
+  };  ///< of any thread
 };
 
 struct ExperimentOutcome {

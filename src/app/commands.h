@@ -19,6 +19,7 @@ void add_mask_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_mesh_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
+void add_experiment_command(CLI::App& app);
 void add_species_command(CLI::App& app);
 void add_params_command(CLI::App& app);
 void add_completion_command(CLI::App& app);

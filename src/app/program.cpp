@@ -35,6 +35,7 @@ int run_program(int argc, const char* const* argv) {
   add_render_command(app);
   add_mesh_command(app);
   add_bench_command(app);
+  add_experiment_command(app);
   add_species_command(app);
   add_params_command(app);
   add_completion_command(app);

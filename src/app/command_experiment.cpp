@@ -1,0 +1,120 @@
+// espalier experiment: runs experiments declared as data, reports them, and checks them against what is
+// expected of them.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/commands.h"
+#include "core/error.h"
+#include "experiments/runner/run_experiment.h"
+#include "experiments/runner/summary_table.h"
+
+namespace espalier {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+struct RunArguments {
+  std::string file, out;
+  int jobs = 0;
+  bool quiet = false;
+};
+
+// Ctrl-C: the first ends the runs, which go on when the command is given again; the second kills.
+volatile std::sig_atomic_t interrupted = 0;
+
+void on_interrupt(int signal) {
+  interrupted = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+std::string duration(double seconds) {
+  if (seconds < 90) return fmt::format("{:.0f} s", std::ceil(seconds));
+  return fmt::format("{:.0f} min", std::ceil(seconds / 60));
+}
+
+/// One line that is written over on a terminal, a plain line every few seconds elsewhere.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+  void show(const ExperimentProgress& progress) {
+    const double pause_s = terminal_ ? 0.2 : 10;
+    if (quiet_ || (shown_at_ && std::chrono::duration<double>(Clock::now() - *shown_at_).count() < pause_s))
+      return;
+    shown_at_ = Clock::now();
+    const std::string failed = progress.failed > 0 ? fmt::format(", {} failed", progress.failed) : "",
+                      left = progress.seconds_left ? ", " + duration(*progress.seconds_left) + " left" : "";
+    fmt::print(stderr, "{}{} of {} runs done{}{}{}", terminal_ ? "\r\033[K" : "", progress.done,
+               progress.runs, failed, left, terminal_ ? "" : "\n");
+    std::fflush(stderr);
+  }
+  void end() const {
+    if (shown_at_ && terminal_) fmt::print(stderr, "\r\033[K");
+  }
+
+ private:
+  bool quiet_, terminal_;
+  std::optional<Clock::time_point> shown_at_;
+};
+
+void print_outcome(const ExperimentOutcome& outcome, const fs::path& directory, double seconds) {
+  fmt::print("{}", summary_table(outcome));
+  std::size_t left = 0;
+  for (const RunRow& row : outcome.rows) left += row.status == "left";
+  if (left > 0)
+    fmt::print("stopped with {} of {} runs left: the same command goes on\n", left, outcome.rows.size());
+  else
+    fmt::print("{} runs in {} ({}); espalier experiment report {}\n", outcome.rows.size(),
+               (directory / "results.csv").string(), duration(seconds), directory.string());
+}
+
+void run_runs(const RunArguments& arguments) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error to report, not a death
+  const Experiment experiment = read_experiment(arguments.file);
+  const fs::path directory =
+      arguments.out.empty() ? fs::path("runs") / experiment.name : fs::path(arguments.out);
+  ProgressLine line(arguments.quiet);
+  RunnerOptions options;
+  options.jobs = arguments.jobs;
+  options.stop_requested = [] { return interrupted != 0; };
+  options.on_progress = [&line](const ExperimentProgress& progress) { line.show(progress); };
+  std::signal(SIGINT, on_interrupt);
+  const auto began = Clock::now();
+  const ExperimentOutcome outcome = run_experiment(experiment, directory, options);
+  line.end();
+  if (!arguments.quiet)
+    print_outcome(outcome, directory, std::chrono::duration<double>(Clock::now() - began).count());
+}
+
+void add_run_command(CLI::App& experiment) {
+  CLI::App* command = experiment.add_subcommand("run", "Run what is left of an experiment");
+  const auto arguments = std::make_shared<RunArguments>();
+  command->add_option("file", arguments->file, "the experiment: a TOML file (see experiments/)")->required();
+  command->add_option("--out", arguments->out, "directory to make, or to go on in (default: runs/NAME)");
+  command->add_option("--jobs", arguments->jobs, "runs at once; 0: one per processor")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_flag("--quiet", arguments->quiet, "print nothing but errors");
+  command->callback([arguments] { run_runs(*arguments); });
+}
+
+}  // namespace
+
+void add_experiment_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("experiment", "Run, report and check experiments declared as data");
+  command->require_subcommand(1);
+  add_run_command(*command);
+}
+
+}  // namespace espalier
