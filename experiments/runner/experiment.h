@@ -64,19 +64,26 @@ struct GrowthDeclaration {
   int seeds = 100;
 };
 
-struct Experiment {
+/// What an experiment says of itself.
+struct ExperimentWords {
   std::string name;  ///< of the file, without its suffix
+  std::string kind;  ///< "fits", "pictures" or "growth"
   std::string title;
   std::string figure;     ///< of the source, as "4.9, 4.10"
   std::string published;  ///< what the source found
   std::string note;       ///< a paragraph for the page
   std::string text;       ///< the whole file
-  std::optional<FitsDeclaration> fits;
+};
+
+struct Experiment {
+  ExperimentWords words;
+  std::optional<FitsDeclaration> fits;  ///< one of these three
   std::optional<PicturesDeclaration> pictures;
   std::optional<GrowthDeclaration> growth;
-
-  std::string kind() const { return fits ? "fits" : pictures ? "pictures" : "growth"; }
 };
+
+/// Only the words: the files that the experiment names need not be there. Throws InputError.
+ExperimentWords read_words(const std::filesystem::path& path);
 
 /// Reads and checks everything that can be checked before a run: names, ranges, files. Throws InputError with
 /// file, line, key, got and expected.

@@ -114,15 +114,15 @@ void check_experiment_directory(const fs::path& directory, const Experiment& exp
   if (!fs::exists(path, error)) {
     if (holds_files(directory))
       throw_input_error("{}: got a directory with other files, expected a new one or that of '{}'",
-                        directory.string(), experiment.name);
-  } else if (!same_runs(read_file(path), experiment.text)) {
+                        directory.string(), experiment.words.name);
+  } else if (!same_runs(read_file(path), experiment.words.text)) {
     throw_input_error("{}: got the directory of another experiment, expected that of '{}' as it is now",
-                      path.string(), experiment.name);
+                      path.string(), experiment.words.name);
   }
 }
 
 void write_declaration(const fs::path& directory, const Experiment& experiment) {
-  write_file_atomically(directory / kDeclaration, experiment.text);
+  write_file_atomically(directory / kDeclaration, experiment.words.text);
 }
 
 fs::path run_directory(const fs::path& experiment_directory, const std::string& run) {

@@ -318,33 +318,51 @@ GrowthDeclaration read_growth(const TomlSection& growth) {
 const std::vector<std::string> kWords{"title", "figure", "published", "note"};
 const std::vector<std::string> kKinds{"fits", "pictures", "growth"};
 
-void read_kind(const TomlSection& root, Experiment& experiment) {
-  const auto count =
-      std::count_if(kKinds.begin(), kKinds.end(), [&](const auto& kind) { return root.has(kind); });
-  if (count != 1)
-    throw_input_error("{}: got {} of the tables [{}], expected one of them", root.source, count,
+/// A file and the words in it.
+struct Document {
+  toml::table table;
+  ExperimentWords words;
+};
+
+std::string kind_of(const TomlSection& root) {
+  std::vector<std::string> kinds;
+  for (const std::string& kind : kKinds)
+    if (root.has(kind)) kinds.push_back(kind);
+  if (kinds.size() != 1)
+    throw_input_error("{}: got {} of the tables [{}], expected one of them", root.source, kinds.size(),
                       fmt::join(kKinds, "], ["));
-  if (root.has("fits")) experiment.fits = read_fits(root.section("fits"));
-  if (root.has("pictures")) experiment.pictures = read_pictures(root.section("pictures"));
-  if (root.has("growth")) experiment.growth = read_growth(root.section("growth"));
+  return kinds[0];
+}
+
+Document read_document(const fs::path& path) {
+  Document document;
+  ExperimentWords& words = document.words;
+  words.text = read_toml_text(path);
+  document.table = parse_toml(words.text, path.string());
+  const TomlSection root{document.table, path.string()};
+  std::vector<std::string> known = kWords;
+  known.insert(known.end(), kKinds.begin(), kKinds.end());
+  root.expect_only(known);
+  words.name = path.stem();
+  words.kind = kind_of(root);
+  words.title = root.text_or("title", words.name);
+  words.figure = root.text_or("figure", "");
+  words.published = root.text_or("published", "");
+  words.note = root.text_or("note", "");
+  return document;
 }
 
 }  // namespace
 
+ExperimentWords read_words(const fs::path& path) { return read_document(path).words; }
+
 Experiment read_experiment(const fs::path& path) {
-  Experiment experiment;
-  experiment.name = path.stem();
-  experiment.text = read_toml_text(path);
-  const toml::table document = parse_toml(experiment.text, path.string());
-  const TomlSection root{document, path.string()};
-  std::vector<std::string> known = kWords;
-  known.insert(known.end(), kKinds.begin(), kKinds.end());
-  root.expect_only(known);
-  experiment.title = root.text_or("title", experiment.name);
-  experiment.figure = root.text_or("figure", "");
-  experiment.published = root.text_or("published", "");
-  experiment.note = root.text_or("note", "");
-  read_kind(root, experiment);
+  const Document document = read_document(path);
+  const TomlSection root{document.table, path.string()};
+  Experiment experiment{document.words, {}, {}, {}};
+  if (root.has("fits")) experiment.fits = read_fits(root.section("fits"));
+  if (root.has("pictures")) experiment.pictures = read_pictures(root.section("pictures"));
+  if (root.has("growth")) experiment.growth = read_growth(root.section("growth"));
   return experiment;
 }
 

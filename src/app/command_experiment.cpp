@@ -13,7 +13,8 @@
 #include <string>
 
 #include "app/commands.h"
-#include "core/error.h"
+#include "app/version.h"
+#include "experiments/analysis/report.h"
 #include "experiments/runner/run_experiment.h"
 #include "experiments/runner/summary_table.h"
 
@@ -81,9 +82,10 @@ void print_outcome(const ExperimentOutcome& outcome, const fs::path& directory, 
 
 void run_runs(const RunArguments& arguments) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error to report, not a death
-  const Experiment experiment = read_experiment(arguments.file);
+  Experiment experiment = read_experiment(arguments.file);
+  if (experiment.fits) experiment.fits->record.versions = recorded_versions();
   const fs::path directory =
-      arguments.out.empty() ? fs::path("runs") / experiment.name : fs::path(arguments.out);
+      arguments.out.empty() ? fs::path("runs") / experiment.words.name : fs::path(arguments.out);
   ProgressLine line(arguments.quiet);
   RunnerOptions options;
   options.jobs = arguments.jobs;
@@ -95,6 +97,19 @@ void run_runs(const RunArguments& arguments) {
   line.end();
   if (!arguments.quiet)
     print_outcome(outcome, directory, std::chrono::duration<double>(Clock::now() - began).count());
+}
+
+void make_report(const std::string& directory) {
+  const fs::path page = write_report(directory, {recorded_versions()});
+  fmt::print("{}\n", page.string());
+}
+
+void add_report_command(CLI::App& experiment) {
+  CLI::App* command =
+      experiment.add_subcommand("report", "Draw the plots and the page of an experiment's runs");
+  const auto directory = std::make_shared<std::string>();
+  command->add_option("directory", *directory, "directory of an experiment: runs/NAME")->required();
+  command->callback([directory] { make_report(*directory); });
 }
 
 void add_run_command(CLI::App& experiment) {
@@ -115,6 +130,7 @@ void add_experiment_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("experiment", "Run, report and check experiments declared as data");
   command->require_subcommand(1);
   add_run_command(*command);
+  add_report_command(*command);
 }
 
 }  // namespace espalier

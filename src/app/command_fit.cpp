@@ -133,11 +133,6 @@ FitRecord new_record(const CLI::App& command, const FitArguments& arguments) {
   return record;
 }
 
-void add_versions(FitRecord& record) {
-  record.versions = {{"espalier", program_version()}, {"commit", build_commit()}};
-  for (const LibraryVersion& library : library_versions()) record.versions[library.name] = library.version;
-}
-
 /// The record in a run's directory, with the limits of this command line where it gives any.
 FitRecord resumed_record(const CLI::App& command, const FitArguments& arguments) {
   check_run_directory(arguments.resume);
@@ -189,7 +184,7 @@ void run_fit(const CLI::App& command, const FitArguments& arguments) {
   FitRecord record = options.resume              ? resumed_record(command, arguments)
                      : !arguments.repeat.empty() ? repeated_record(arguments.repeat)
                                                  : new_record(command, arguments);
-  add_versions(record);
+  record.versions = recorded_versions();
   const fs::path directory = options.resume          ? fs::path(arguments.resume)
                              : arguments.out.empty() ? unused_directory(record)
                                                      : fs::path(arguments.out);

@@ -40,6 +40,12 @@ std::vector<LibraryVersion> library_versions() {
   };
 }
 
+std::map<std::string, std::string> recorded_versions() {
+  std::map<std::string, std::string> versions{{"espalier", program_version()}, {"commit", build_commit()}};
+  for (const LibraryVersion& library : library_versions()) versions[library.name] = library.version;
+  return versions;
+}
+
 std::string version_text() {
   std::string text = fmt::format("espalier {} (commit {})", program_version(), build_commit());
   for (const LibraryVersion& library : library_versions())

@@ -1,5 +1,6 @@
 // What this program was built from: its version, its commit, its libraries. Run records hold them.
 #pragma once
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ std::string program_version();
 std::string build_commit();
 
 std::vector<LibraryVersion> library_versions();
+
+/// All of these by name, as run records hold them.
+std::map<std::string, std::string> recorded_versions();
 
 /// What `espalier --version` prints: several lines, without the last line feed.
 std::string version_text();

@@ -1,0 +1,90 @@
+#include "experiments/analysis/finished_fits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "experiments/runner/csv.h"
+#include "experiments/runner/experiment_directory.h"
+
+namespace espalier {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool varies(const CsvTable& results, const std::string& column) {
+  for (std::size_t i = 1; i < results.rows.size(); ++i)
+    if (results.text(i, column) != results.text(0, column)) return true;
+  return false;
+}
+
+/// What is compared: the optimiser, with the objective, space and start where these vary too.
+std::string method_of(const CsvTable& results, std::size_t row) {
+  std::string method;
+  for (const char* column : {"optimizer", "objective", "space", "start"})
+    if (varies(results, column)) method.append(method.empty() ? "" : ", ").append(results.text(row, column));
+  return method.empty() ? results.text(row, "optimizer") : method;
+}
+
+std::vector<GenerationRow> read_trace(const fs::path& path) {
+  const CsvTable trace = read_csv(path);
+  std::vector<GenerationRow> rows;
+  for (std::size_t i = 0; i < trace.rows.size(); ++i)
+    rows.push_back({std::lround(trace.number(i, "evaluations")), trace.number(i, "batch_best"),
+                    trace.number(i, "best")});
+  return rows;
+}
+
+StepCurve curve_of(const std::vector<GenerationRow>& trace) {
+  StepCurve curve;
+  for (const GenerationRow& row : trace) {
+    if (!curve.evaluations.empty() && curve.evaluations.back() == row.evaluations)
+      curve.best.back() = row.best;
+    else
+      curve.evaluations.push_back(row.evaluations), curve.best.push_back(row.best);
+  }
+  return curve;
+}
+
+std::map<std::string, double> read_seconds(const fs::path& path) {
+  const CsvTable times = read_csv(path);
+  std::map<std::string, double> seconds;
+  for (std::size_t i = 0; i < times.rows.size(); ++i)
+    seconds[times.text(i, "run")] = times.number(i, "seconds");
+  return seconds;
+}
+
+FinishedFit read_fit(const CsvTable& results, std::size_t row, const fs::path& directory) {
+  FinishedFit fit{results.text(row, "run"), results.text(row, "target"), method_of(results, row),
+                  results.text(row, "seed"), results.text(row, "status") == "failed"};
+  fit.fitness = results.number(row, "fitness");
+  fit.unseen_fitness = results.number(row, "unseen_fitness");
+  if (fit.failed) return fit;
+  fit.trace = read_trace(run_directory(directory, fit.run) / "trace.csv");
+  fit.curve = curve_of(fit.trace);
+  return fit;
+}
+
+}  // namespace
+
+std::vector<FinishedFit> read_finished_fits(const fs::path& directory) {
+  const CsvTable results = read_csv(directory / "results.csv");
+  const auto seconds = read_seconds(directory / "times.csv");
+  std::vector<FinishedFit> fits;
+  for (std::size_t row = 0; row < results.rows.size(); ++row) {
+    fits.push_back(read_fit(results, row, directory));
+    const auto known = seconds.find(fits.back().run);
+    fits.back().seconds = known == seconds.end() ? NAN : known->second;
+  }
+  return fits;
+}
+
+std::vector<std::string> in_order(const std::vector<FinishedFit>& fits, std::string FinishedFit::*column) {
+  std::vector<std::string> names;
+  for (const FinishedFit& fit : fits)
+    if (std::find(names.begin(), names.end(), fit.*column) == names.end()) names.push_back(fit.*column);
+  return names;
+}
+
+}  // namespace espalier

@@ -1,0 +1,30 @@
+// The finished runs of an experiment of fits, as its tables and traces tell of them.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/statistics/curves.h"
+
+namespace espalier {
+
+struct GenerationRow {
+  long evaluations = 0;
+  double batch_best = 0, best = 0;  ///< fitness
+};
+
+struct FinishedFit {
+  std::string run, target, method, seed;  ///< method: the optimiser, and what else varies
+  bool failed = false;
+  double fitness = 0, unseen_fitness = 0, seconds = 0;  ///< NaN where not known
+  std::vector<GenerationRow> trace;
+  StepCurve curve;  ///< of the best fitness
+};
+
+/// In the order of results.csv. Throws InputError for files that are missing or broken.
+std::vector<FinishedFit> read_finished_fits(const std::filesystem::path& directory);
+
+/// Targets, or methods, in the order in which they appear.
+std::vector<std::string> in_order(const std::vector<FinishedFit>& fits, std::string FinishedFit::*column);
+
+}  // namespace espalier

@@ -1,0 +1,15 @@
+// The tables of an experiment of growth: times, complexity by species, and the exponents of time over size.
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "experiments/runner/csv.h"
+
+namespace espalier {
+
+/// Tables by file name: growth_times.csv, growth_complexity.csv, growth_fit.csv. Throws InputError for files
+/// that are missing or broken.
+std::map<std::string, CsvTable> growth_tables(const std::filesystem::path& directory);
+
+}  // namespace espalier

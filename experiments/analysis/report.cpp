@@ -1,0 +1,149 @@
+#include "experiments/analysis/report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "experiments/analysis/draw_report.h"
+#include "experiments/analysis/fit_tables.h"
+#include "experiments/analysis/growth_tables.h"
+#include "experiments/runner/experiment.h"
+#include "experiments/runner/experiment_directory.h"
+
+namespace espalier {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Tables = std::map<std::string, CsvTable>;
+
+constexpr std::size_t kMostThumbnails = 24;
+
+/// Its name is the directory's.
+ExperimentWords words_in(const fs::path& directory) {
+  const fs::path path = directory / "experiment.toml";
+  if (!fs::is_regular_file(path))
+    throw_input_error("{}: got no experiment.toml in it, expected the directory of an experiment",
+                      directory.string());
+  ExperimentWords words = read_words(path);
+  words.name = fs::absolute(path).lexically_normal().parent_path().filename();
+  return words;
+}
+
+void check_done(const fs::path& directory) {
+  if (!fs::is_regular_file(directory / "results.csv") || read_csv(directory / "results.csv").rows.empty())
+    throw_input_error("{}: got no finished run, expected at least one (espalier experiment run)",
+                      directory.string());
+}
+
+std::string title_of(const std::string& file) {
+  static const std::map<std::string, std::string> titles{
+      {"results.csv", "All runs"},
+      {"ranks.csv", "Ranks: methods that share a letter do not differ"},
+      {"friedman.csv", "Friedman's test"},
+      {"growth_fit.csv", "Exponents: seconds = factor · size^exponent"},
+      {"growth_complexity.csv", "Points of the stems' curves"}};
+  const auto found = titles.find(file);
+  return found == titles.end() ? "" : found->second;
+}
+
+Json table_list(const Tables& tables) {
+  Json list = Json::array();
+  for (const auto& [file, table] : tables)
+    if (const std::string title = title_of(file); !title.empty())
+      list.push_back({{"file", file}, {"title", title}});
+  return list;
+}
+
+/// All runs of a small experiment; of a large one the best of each target.
+std::vector<const FinishedFit*> fits_to_show(const std::vector<FinishedFit>& fits) {
+  std::vector<const FinishedFit*> shown;
+  for (const FinishedFit& fit : fits)
+    if (!fit.failed) shown.push_back(&fit);
+  if (shown.size() <= kMostThumbnails) return shown;
+  std::map<std::string, const FinishedFit*> best;
+  for (const FinishedFit* fit : shown)
+    if (const FinishedFit*& known = best[fit->target]; !known || fit->fitness > known->fitness) known = fit;
+  shown.clear();
+  for (const auto& [target, fit] : best) shown.push_back(fit);
+  return shown;
+}
+
+Json thumbnails_of(const std::vector<FinishedFit>& fits) {
+  Json list = Json::array();
+  for (const FinishedFit* fit : fits_to_show(fits)) {
+    const std::string run = "../runs/" + fit->run;
+    list.push_back({{"run", fit->run},
+                    {"target", run + "/target.png"},
+                    {"result", run + "/best.png"},
+                    {"overlay", run + "/overlay.png"},
+                    {"label", fmt::format("{}: {}, seed {}", fit->target, fit->method, fit->seed)},
+                    {"fitness", fit->fitness}});
+  }
+  return list;
+}
+
+std::vector<std::string> distinct(const CsvTable& table, const std::string& column) {
+  std::vector<std::string> values;
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    if (std::find(values.begin(), values.end(), table.text(row, column)) == values.end())
+      values.push_back(table.text(row, column));
+  return values;
+}
+
+/// Rows, columns and the picture of each cell; an empty path where it is not drawn.
+Json sheet_of(const CsvTable& results) {
+  const std::vector<std::string> rows = distinct(results, "row"), columns = distinct(results, "column");
+  std::vector<std::vector<std::string>> cells(rows.size(), std::vector<std::string>(columns.size()));
+  for (std::size_t i = 0; i < results.rows.size(); ++i) {
+    const auto row = std::find(rows.begin(), rows.end(), results.text(i, "row")) - rows.begin(),
+               column =
+                   std::find(columns.begin(), columns.end(), results.text(i, "column")) - columns.begin();
+    if (results.text(i, "status") == "done")
+      cells[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] =
+          fmt::format("../runs/{}/picture.png", results.text(i, "run"));
+  }
+  return {{"rows", rows}, {"columns", columns}, {"cells", cells}};
+}
+
+Json meta_of(const ExperimentWords& words, const ReportOptions& options) {
+  return {{"name", words.name},
+          {"kind", words.kind},
+          {"title", words.title},
+          {"figure", words.figure},
+          {"published", words.published},
+          {"note", words.note},
+          {"command", fmt::format("./espalier experiment run experiments/{}.toml", words.name)},
+          {"declaration", words.text},
+          {"versions", options.versions}};
+}
+
+}  // namespace
+
+fs::path write_report(const fs::path& directory, const ReportOptions& options) {
+  const ExperimentWords words = words_in(directory);
+  check_done(directory);
+  Tables tables;
+  Json meta = meta_of(words, options);
+  if (words.kind == "fits") {
+    const std::vector<FinishedFit> fits = read_finished_fits(directory);
+    tables = fit_tables(fits);
+    meta["thumbnails"] = thumbnails_of(fits);
+  }
+  if (words.kind == "growth") tables = growth_tables(directory);
+  tables.emplace("results.csv", read_csv(directory / "results.csv"));
+  if (words.kind == "pictures") meta["sheet"] = sheet_of(tables.at("results.csv"));
+  meta["tables"] = table_list(tables);
+  const fs::path report = directory / "report";
+  fs::remove_all(report);
+  fs::create_directories(report);
+  for (const auto& [file, table] : tables) write_file_atomically(report / file, to_csv(table));
+  write_file_atomically(report / "meta.json", meta.dump(2) + "\n");
+  draw_report(report);
+  return report / "index.html";
+}
+
+}  // namespace espalier
