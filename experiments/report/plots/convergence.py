@@ -1,0 +1,69 @@
+"""Convergence: the best fitness so far over true evaluations, the median of all runs and the band of their quartiles.
+
+One figure for all targets together, one with a panel a target."""
+
+import matplotlib.pyplot as plt
+
+import style
+from plots.order import best_first
+from read import column, grouped, number, read_table
+
+COLUMNS = {"target": str, "optimizer": str, "evaluations": number, "q25": number, "median": number, "q75": number}
+
+
+def draw(directory, meta):
+    rows = read_table(directory / "convergence.csv", COLUMNS)
+    if not rows:
+        return {}
+    targets = grouped(rows, "target")
+    names = best_first(directory, [row["optimizer"] for row in rows])
+    figures = {}
+    if "all" in targets:
+        figures["convergence"] = draw_one(targets.pop("all"), names)
+    if targets:
+        figures["convergence_targets"] = draw_targets(targets, names)
+    return figures
+
+
+def draw_one(rows, names):
+    figure, axes = plt.subplots(figsize=(7, 4.4))
+    styles = style.line_styles(names)
+    draw_curves(axes, rows, styles)
+    label(axes)
+    axes.set_title("All targets: median of all runs, band between the quartiles", loc="left")
+    style.add_legend(axes, names, styles, loc="upper left", bbox_to_anchor=(1.01, 1))
+    return figure
+
+
+def draw_targets(targets, names):
+    """Small panels, which share the evaluations but not the fitness: targets differ in what can be reached."""
+    figure, axes = style.panels(len(targets), sharex=True, layout="constrained")
+    styles = style.line_styles(names)
+    for panel, (target, rows) in zip(axes, targets.items()):
+        draw_curves(panel, rows, styles, linewidth=1.1)
+        panel.set_xscale("log")
+        panel.set_title(target, loc="left")
+        panel.tick_params(labelsize=8)
+    figure.supxlabel("evaluations", fontsize=10)
+    figure.supylabel("fitness", fontsize=10)
+    style.add_legend(figure, names, styles, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=4)
+    return figure
+
+
+def draw_curves(axes, rows, styles, **options):
+    """Steps, since a fitness holds until a better one is found."""
+    curves = grouped(rows, "optimizer")
+    for name, how in styles.items():
+        curve = curves.get(name, [])
+        evaluations = column(curve, "evaluations")
+        axes.plot(evaluations, column(curve, "median"), drawstyle="steps-post",
+                  **({**options, **how} if not style.stands_out(how) else {**how, **options}))
+        if style.stands_out(how):
+            axes.fill_between(evaluations, column(curve, "q25"), column(curve, "q75"), step="post",
+                              color=how["color"], alpha=0.12, linewidth=0, zorder=1)
+
+
+def label(axes):
+    axes.set_xscale("log")
+    axes.set_xlabel("evaluations")
+    axes.set_ylabel("fitness (1 - dissimilarity)")

@@ -1,0 +1,30 @@
+"""How complex the trees of each species are, as the dissertation's Fig. 4.7: knots of the stems, box by box."""
+
+import matplotlib.pyplot as plt
+
+import style
+from read import number, read_table
+
+COLUMNS = {"species": str, "min": number, "q25": number, "median": number, "q75": number, "max": number}
+
+
+def draw(directory, meta):
+    rows = read_table(directory / "growth_complexity.csv", COLUMNS)
+    rows = [row for row in rows or [] if all(row[name] is not None for name in COLUMNS)]
+    if not rows:
+        return {}
+    rows.sort(key=lambda row: row["median"])
+    figure, axes = plt.subplots(figsize=(7, 0.3 * len(rows) + 1.2))
+    axes.bxp([box(row) for row in rows], vert=False, showfliers=False, widths=0.6, patch_artist=True,
+             boxprops={"facecolor": style.SKY, "linewidth": 0.8}, medianprops={"color": style.BLACK},
+             whiskerprops={"linewidth": 0.8}, capprops={"linewidth": 0.8})
+    axes.invert_yaxis()
+    axes.set_xscale("log")
+    axes.set_xlabel("knots of the stems")
+    axes.set_title("Smallest, quartiles, median and largest of each species", loc="left")
+    return {"growth_complexity": figure}
+
+
+def box(row):
+    return {"label": row["species"], "whislo": row["min"], "q1": row["q25"], "med": row["median"], "q3": row["q75"],
+            "whishi": row["max"]}

@@ -1,0 +1,85 @@
+"""How every plot looks, and how it is saved: the same data give the same bytes.
+
+Colours: Okabe, Ito, "Color Universal Design" (2008), told apart by colour-blind readers. Lines also differ in
+their dashes, so that a print in grey can be read."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+BLUE, VERMILLION, GREEN, ORANGE = "#0072B2", "#D55E00", "#009E73", "#E69F00"
+PURPLE, SKY, BLACK, GREY = "#CC79A7", "#56B4E9", "#000000", "#B8B8B8"
+COLOURS = [BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK]  # the yellow is too pale for lines on white
+DASHES = ["-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)), "-", "--", ":"]
+FORMATS = {"svg": {"Date": None}, "png": {"Software": None}, "pdf": {"CreationDate": None, "Producer": None,
+                                                                    "Creator": None}}
+
+SETTINGS = {
+    "svg.hashsalt": "espalier",  # else the ids in an SVG are random
+    "figure.dpi": 100,
+    "savefig.dpi": 150,
+    "font.family": "DejaVu Sans",
+    "font.size": 10,
+    "axes.titlesize": 10,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#E4E4E4",
+    "grid.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "legend.frameon": False,
+    "lines.linewidth": 1.6,
+}
+
+
+def use_style():
+    """Matplotlib's defaults and ours, whatever the user's own matplotlibrc says."""
+    matplotlib.rcdefaults()
+    matplotlib.use("Agg")
+    matplotlib.rcParams.update(SETTINGS)
+
+
+def save(figure, directory, stem):
+    """Writes stem.svg, stem.png and stem.pdf; the margins fit what is drawn."""
+    for extension, metadata in FORMATS.items():
+        figure.savefig(directory / f"{stem}.{extension}", metadata=metadata, bbox_inches="tight", pad_inches=0.1)
+    plt.close(figure)
+
+
+def line_styles(names):
+    """Colour and dashes of each optimizer, best first: the first few stand out, the others are thin and grey."""
+    styles = {}
+    for i, name in enumerate(names):
+        if i < len(COLOURS):
+            styles[name] = {"color": COLOURS[i], "linestyle": DASHES[i], "zorder": 3 + 1 / (i + 1)}
+        else:
+            styles[name] = {"color": GREY, "linewidth": 0.7, "zorder": 2}
+    return styles
+
+
+def stands_out(style):
+    return style["color"] != GREY
+
+
+def add_legend(target, names, styles, **place):
+    """The lines that stand out by name, in order, and one entry for the grey ones."""
+    from matplotlib.lines import Line2D
+    shown = [name for name in names if stands_out(styles[name])]
+    lines = [Line2D([], [], **{k: v for k, v in styles[name].items() if k != "zorder"}) for name in shown]
+    others = len(names) - len(shown)
+    if others:
+        lines.append(Line2D([], [], color=GREY, linewidth=0.7))
+        shown.append(f"{others} others")
+    return target.legend(lines, shown, handlelength=3, **place)
+
+
+def panels(count, width=3.2, height=2.3, columns=4, **options):
+    """A grid of `count` axes and its figure; the places left over stay empty."""
+    columns = min(count, columns)
+    rows = -(-count // columns)
+    figure, axes = plt.subplots(rows, columns, figsize=(width * columns, height * rows), squeeze=False, **options)
+    flat = list(axes.flat)
+    for axis in flat[count:]:
+        axis.remove()
+    return figure, flat[:count]
