@@ -109,12 +109,19 @@ Json sheet_of(const CsvTable& results) {
   return {{"rows", rows}, {"columns", columns}, {"cells", cells}};
 }
 
+/// What fitness measures; empty where runs differ in it.
+std::string objective_in(const fs::path& directory) {
+  const std::vector<std::string> objectives = distinct(read_csv(directory / "results.csv"), "objective");
+  return objectives.size() == 1 ? objectives[0] : "";
+}
+
 Json meta_of(const ExperimentWords& words, const ReportOptions& options) {
   return {{"name", words.name},
           {"kind", words.kind},
           {"title", words.title},
           {"figure", words.figure},
           {"published", words.published},
+          {"published_fitness", words.published_fitness},
           {"note", words.note},
           {"command", fmt::format("./espalier experiment run experiments/{}.toml", words.name)},
           {"declaration", words.text},
@@ -132,6 +139,7 @@ fs::path write_report(const fs::path& directory, const ReportOptions& options) {
     const std::vector<FinishedFit> fits = read_finished_fits(directory);
     tables = fit_tables(fits);
     meta["thumbnails"] = thumbnails_of(fits);
+    meta["objective"] = objective_in(directory);
   }
   if (words.kind == "growth") tables = growth_tables(directory);
   tables.emplace("results.csv", read_csv(directory / "results.csv"));

@@ -69,10 +69,11 @@ struct ExperimentWords {
   std::string name;  ///< of the file, without its suffix
   std::string kind;  ///< "fits", "pictures" or "growth"
   std::string title;
-  std::string figure;     ///< of the source, as "4.9, 4.10"
-  std::string published;  ///< what the source found
-  std::string note;       ///< a paragraph for the page
-  std::string text;       ///< the whole file
+  std::string figure;                     ///< of the source, as "4.9, 4.10"
+  std::string published;                  ///< what the source found
+  std::string note;                       ///< a paragraph for the page
+  std::vector<double> published_fitness;  ///< its range in the source, as [0.95, 0.97]; empty where unknown
+  std::string text;                       ///< the whole file
 };
 
 struct Experiment {

@@ -252,6 +252,15 @@ FitsDeclaration read_fits(const TomlSection& fits) {
 
 // Sheets of pictures.
 
+/// A mesh that is not found from the working directory may lie beside the experiment's file.
+std::string beside_the_file(const TomlSection& section, const std::string& volume) {
+  constexpr std::string_view kMesh = "mesh:";
+  std::error_code error;
+  if (!volume.starts_with(kMesh) || fs::exists(volume.substr(kMesh.size()), error)) return volume;
+  const fs::path beside = fs::path(section.source).parent_path() / volume.substr(kMesh.size());
+  return fs::exists(beside, error) ? std::string(kMesh).append(fs::absolute(beside).string()) : volume;
+}
+
 PictureChange read_change(const TomlSection& section, const std::string& species) {
   section.expect_only({"label", "species", "set", "prune_to"});
   PictureChange change;
@@ -271,7 +280,7 @@ PictureChange read_change(const TomlSection& section, const std::string& species
   } else if (section.has("species")) {
     located(section, "species", [&] { return load_preset(grown); });
   }
-  change.prune_to = section.text_or("prune_to", "");
+  change.prune_to = beside_the_file(section, section.text_or("prune_to", ""));
   if (!change.prune_to.empty())
     located(section, "prune_to", [&] { return parse_volume(change.prune_to) != nullptr; });
   return change;
@@ -315,7 +324,7 @@ GrowthDeclaration read_growth(const TomlSection& growth) {
   return declaration;
 }
 
-const std::vector<std::string> kWords{"title", "figure", "published", "note"};
+const std::vector<std::string> kWords{"title", "figure", "published", "published_fitness", "note"};
 const std::vector<std::string> kKinds{"fits", "pictures", "growth"};
 
 /// A file and the words in it.
@@ -323,6 +332,16 @@ struct Document {
   toml::table table;
   ExperimentWords words;
 };
+
+/// Two numbers in [0, 1], the lower first; none where the key is missing.
+std::vector<double> read_range(const TomlSection& root, std::string_view key) {
+  std::vector<double> range;
+  if (!root.has(key)) return range;
+  for (const toml::node& node : root.array(key)) range.push_back(node.value<double>().value_or(-1));
+  if (range.size() != 2 || !(range[0] >= 0 && range[0] <= range[1] && range[1] <= 1))
+    root.fail(key, "two numbers in 0..1, the lower first");
+  return range;
+}
 
 std::string kind_of(const TomlSection& root) {
   std::vector<std::string> kinds;
@@ -349,6 +368,7 @@ Document read_document(const fs::path& path) {
   words.figure = root.text_or("figure", "");
   words.published = root.text_or("published", "");
   words.note = root.text_or("note", "");
+  words.published_fitness = read_range(root, "published_fitness");
   return document;
 }
 
