@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <mutex>
 #include <numeric>
 #include <thread>
@@ -30,18 +31,31 @@ class Runner {
         done_before_(std::count_if(outcome.rows.begin(), outcome.rows.end(),
                                    [](const RunRow& row) { return row.status == "done"; })) {}
 
+  /// Of one thread: takes runs until none is left.
   void work() {
-    while (!options_.stop_requested()) {
-      const std::size_t index = next_++;
-      if (index >= outcome_.rows.size()) return;
-      if (outcome_.rows[index].status == "left") run(index);
+    try {
+      for (std::size_t index = next_++; index < outcome_.rows.size() && !is_stopped(); index = next_++)
+        if (outcome_.rows[index].status == "left") run(index);
+    } catch (...) {
+      const std::lock_guard guard(mutex_);
+      if (!failure_) failure_ = std::current_exception();
     }
   }
 
+  /// Throws what ended the runner itself: tables that could not be written.
+  void check() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
  private:
+  bool is_stopped() {
+    const std::lock_guard guard(mutex_);
+    return failure_ || options_.stop_requested();
+  }
+
   void run(std::size_t index) {
     RunRow row = outcome_.rows[index];
-    const RunContext context{options_.stop_requested, [&](double share) { report(index, share); }};
+    const RunContext context{[this] { return is_stopped(); }, [&](double share) { report(index, share); }};
     const fs::path run = run_directory(directory_, row.run);
     try {
       if (const auto measured = outcome_.plan.runs[index].execute(run, context)) {
@@ -86,6 +100,7 @@ class Runner {
   ExperimentOutcome& outcome_;
   std::atomic<std::size_t> next_ = 0;
   std::mutex mutex_;
+  std::exception_ptr failure_;
   std::vector<double> done_share_;  ///< of each run, in this execution
   std::size_t done_before_;
   Clock::time_point began_ = Clock::now();
@@ -128,6 +143,7 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
   std::vector<std::jthread> threads;
   for (int i = 0; i < job_count(outcome.plan, options); ++i) threads.emplace_back([&] { runner.work(); });
   threads.clear();
+  runner.check();
   write_tables(directory, outcome.plan, outcome.rows);
   return outcome;
 }

@@ -14,6 +14,8 @@
 
 #include "app/commands.h"
 #include "app/version.h"
+#include "core/error.h"
+#include "experiments/analysis/check.h"
 #include "experiments/analysis/report.h"
 #include "experiments/runner/run_experiment.h"
 #include "experiments/runner/summary_table.h"
@@ -112,6 +114,40 @@ void add_report_command(CLI::App& experiment) {
   command->callback([directory] { make_report(*directory); });
 }
 
+struct CheckArguments {
+  std::string directory, expected;
+};
+
+/// NAME.expected.toml among the bundled experiments, for runs/NAME.
+fs::path expected_for(const CheckArguments& arguments) {
+  if (!arguments.expected.empty()) return arguments.expected;
+  const std::string name =
+      fs::absolute(fs::path(arguments.directory) / ".").lexically_normal().parent_path().filename();
+  return fs::path(ESPALIER_DATA_DIR) / "experiments" / (name + ".expected.toml");
+}
+
+void check_runs(const CheckArguments& arguments) {
+  const auto checked = check_expectations(read_expectations(expected_for(arguments)), arguments.directory);
+  std::size_t broken = 0;
+  for (const CheckedExpectation& one : checked) {
+    fmt::print("{}  {}: got {:.6g}\n", one.holds ? "holds " : "BROKEN", one.expectation.text(), one.got);
+    broken += !one.holds;
+  }
+  if (broken == 0) return;
+  fmt::print(stderr, "espalier: {}: {} of {} expectations do not hold\n", arguments.directory, broken,
+             checked.size());
+  throw CLI::RuntimeError(1);
+}
+
+void add_check_command(CLI::App& experiment) {
+  CLI::App* command = experiment.add_subcommand("check", "Compare what was measured with what is expected");
+  const auto arguments = std::make_shared<CheckArguments>();
+  command->add_option("directory", arguments->directory, "directory of an experiment: runs/NAME")->required();
+  command->add_option("expected", arguments->expected,
+                      "expectations (default: experiments/NAME.expected.toml)");
+  command->callback([arguments] { check_runs(*arguments); });
+}
+
 void add_run_command(CLI::App& experiment) {
   CLI::App* command = experiment.add_subcommand("run", "Run what is left of an experiment");
   const auto arguments = std::make_shared<RunArguments>();
@@ -131,6 +167,7 @@ void add_experiment_command(CLI::App& app) {
   command->require_subcommand(1);
   add_run_command(*command);
   add_report_command(*command);
+  add_check_command(*command);
 }
 
 }  // namespace espalier

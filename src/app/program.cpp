@@ -44,6 +44,8 @@ int run_program(int argc, const char* const* argv) {
     return 0;
   } catch (const CLI::Success& done) {
     return app.exit(done);
+  } catch (const CLI::RuntimeError& ended) {
+    return ended.get_exit_code();  // a command that has said why
   } catch (const CLI::ParseError& error) {
     print_error(fmt::format("{} (try: espalier --help)", error.what()));
     return 2;

@@ -3,9 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -38,21 +36,6 @@ std::string trace_without_seconds(const fs::path& run) {
     text += line.substr(0, first) + line.substr(second) + "\n";
   }
   return text;
-}
-
-/// Starts a command through the shell, sends `signal` after `delay_ms`, returns its wait status.
-int run_and_signal(const std::string& command, int delay_ms, int signal) {
-  const pid_t child = fork();
-  if (child == 0) {
-    const std::string line = "exec '" ESPALIER_PROGRAM "' " + command + " >/dev/null 2>&1";
-    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-    _exit(127);
-  }
-  usleep(static_cast<useconds_t>(delay_ms) * 1000);
-  kill(child, signal);
-  int status = 0;
-  waitpid(child, &status, 0);
-  return status;
 }
 
 void expect_error(const std::string& arguments, const std::string& words) {

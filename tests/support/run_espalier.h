@@ -1,6 +1,7 @@
 // Runs the program as a user does and keeps what it printed, for tests of exit codes and messages.
 #pragma once
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -65,6 +66,21 @@ inline ProgramRun run_shell(const std::string& command) {
 /// Runs the program with these arguments, written as in a shell.
 inline ProgramRun run_espalier(const std::string& arguments) {
   return run_shell("'" ESPALIER_PROGRAM "' " + arguments);
+}
+
+/// Starts the program through the shell, sends `signal` after `delay_ms`, returns its wait status.
+inline int run_and_signal(const std::string& command, int delay_ms, int signal) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::string line = "exec '" ESPALIER_PROGRAM "' " + command + " >/dev/null 2>&1";
+    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+    _exit(127);
+  }
+  usleep(static_cast<useconds_t>(delay_ms) * 1000);
+  kill(child, signal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return status;
 }
 
 /// The contract for bad input: exit code 2, nothing on stdout, one line on stderr.
