@@ -1,18 +1,16 @@
 // espalier experiment: runs experiments declared as data, reports them, and checks them against what is
 // expected of them.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "app/commands.h"
+#include "app/long_work.h"
 #include "app/version.h"
 #include "core/error.h"
 #include "experiments/analysis/check.h"
@@ -33,43 +31,16 @@ struct RunArguments {
   bool quiet = false;
 };
 
-// Ctrl-C: the first ends the runs, which go on when the command is given again; the second kills.
-volatile std::sig_atomic_t interrupted = 0;
-
-void on_interrupt(int signal) {
-  interrupted = 1;
-  std::signal(signal, SIG_DFL);
-}
-
 std::string duration(double seconds) {
   if (seconds < 90) return fmt::format("{:.0f} s", std::ceil(seconds));
   return fmt::format("{:.0f} min", std::ceil(seconds / 60));
 }
 
-/// One line that is written over on a terminal, a plain line every few seconds elsewhere.
-class ProgressLine {
- public:
-  explicit ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
-
-  void show(const ExperimentProgress& progress) {
-    const double pause_s = terminal_ ? 0.2 : 10;
-    if (quiet_ || (shown_at_ && std::chrono::duration<double>(Clock::now() - *shown_at_).count() < pause_s))
-      return;
-    shown_at_ = Clock::now();
-    const std::string failed = progress.failed > 0 ? fmt::format(", {} failed", progress.failed) : "",
-                      left = progress.seconds_left ? ", " + duration(*progress.seconds_left) + " left" : "";
-    fmt::print(stderr, "{}{} of {} runs done{}{}{}", terminal_ ? "\r\033[K" : "", progress.done,
-               progress.runs, failed, left, terminal_ ? "" : "\n");
-    std::fflush(stderr);
-  }
-  void end() const {
-    if (shown_at_ && terminal_) fmt::print(stderr, "\r\033[K");
-  }
-
- private:
-  bool quiet_, terminal_;
-  std::optional<Clock::time_point> shown_at_;
-};
+std::string progress_text(const ExperimentProgress& progress) {
+  return fmt::format("{} of {} runs done{}{}", progress.done, progress.runs,
+                     progress.failed > 0 ? fmt::format(", {} failed", progress.failed) : "",
+                     progress.seconds_left ? ", " + duration(*progress.seconds_left) + " left" : "");
+}
 
 void print_outcome(const ExperimentOutcome& outcome, const fs::path& directory, double seconds) {
   fmt::print("{}", summary_table(outcome));
@@ -83,17 +54,18 @@ void print_outcome(const ExperimentOutcome& outcome, const fs::path& directory, 
 }
 
 void run_runs(const RunArguments& arguments) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error to report, not a death
   Experiment experiment = read_experiment(arguments.file);
   if (experiment.fits) experiment.fits->record.versions = recorded_versions();
   const fs::path directory =
       arguments.out.empty() ? fs::path("runs") / experiment.words.name : fs::path(arguments.out);
-  ProgressLine line(arguments.quiet);
+  ProgressLine line(arguments.quiet, 10);
   RunnerOptions options;
   options.jobs = arguments.jobs;
-  options.stop_requested = [] { return interrupted != 0; };
-  options.on_progress = [&line](const ExperimentProgress& progress) { line.show(progress); };
-  std::signal(SIGINT, on_interrupt);
+  options.stop_requested = is_interrupted;
+  options.on_progress = [&line](const ExperimentProgress& progress) {
+    line.show([&] { return progress_text(progress); });
+  };
+  watch_for_interrupt();
   const auto began = Clock::now();
   const ExperimentOutcome outcome = run_experiment(experiment, directory, options);
   line.end();

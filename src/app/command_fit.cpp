@@ -1,17 +1,15 @@
 // espalier fit: fits a tree to pictures. Options become a record, the fit runs, its progress is shown.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <string>
 
 #include "app/commands.h"
+#include "app/long_work.h"
 #include "app/version.h"
 #include "core/error.h"
 #include "fitting/fit.h"
@@ -21,7 +19,6 @@ namespace espalier {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 constexpr const char* kDefaultPicture = "targets/fir.png";
 
@@ -35,41 +32,13 @@ struct FitArguments {
   bool quiet = false;
 };
 
-// Ctrl-C: the first ends the search and writes the result, the second kills.
-volatile std::sig_atomic_t interrupted = 0;
-
-void on_interrupt(int signal) {
-  interrupted = 1;
-  std::signal(signal, SIG_DFL);
+std::string progress_text(const FitProgress& progress) {
+  const std::string left =
+      progress.seconds_left ? fmt::format(", {:.0f} s left", std::ceil(*progress.seconds_left)) : "";
+  return fmt::format("{} evaluations, {:.0f}/s, best fitness {:.4f}{}", progress.evaluations,
+                     static_cast<double>(progress.evaluations) / std::max(progress.seconds, 1e-9),
+                     progress.best_fitness, left);
 }
-
-/// One line that is written over on a terminal, a plain line every few seconds elsewhere.
-class ProgressLine {
- public:
-  explicit ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
-
-  void show(const FitProgress& progress) {
-    const double pause_s = terminal_ ? 0.2 : 5;
-    if (quiet_ || (shown_ && std::chrono::duration<double>(Clock::now() - shown_at_).count() < pause_s))
-      return;
-    shown_at_ = Clock::now();
-    shown_ = true;
-    const std::string left =
-        progress.seconds_left ? fmt::format(", {:.0f} s left", std::ceil(*progress.seconds_left)) : "";
-    fmt::print(stderr, "{}{} evaluations, {:.0f}/s, best fitness {:.4f}{}{}", terminal_ ? "\r\033[K" : "",
-               progress.evaluations,
-               static_cast<double>(progress.evaluations) / std::max(progress.seconds, 1e-9),
-               progress.best_fitness, left, terminal_ ? "" : "\n");
-    std::fflush(stderr);
-  }
-  void end() const {
-    if (shown_ && terminal_) fmt::print(stderr, "\r\033[K");
-  }
-
- private:
-  bool quiet_, terminal_, shown_ = false;
-  Clock::time_point shown_at_;
-};
 
 /// The bundled picture, from the working directory or else from the sources.
 fs::path default_picture() {
@@ -174,13 +143,14 @@ void print_result(const FitResult& result, const FitRecord& record, const fs::pa
 }
 
 void run_fit(const CLI::App& command, const FitArguments& arguments) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error to report, not a death
-  ProgressLine line(arguments.quiet);
+  ProgressLine line(arguments.quiet, 5);
   FitOptions options;
   options.threads = arguments.threads;
   options.resume = !arguments.resume.empty();
-  options.stop_requested = [] { return interrupted != 0; };
-  options.on_progress = [&line](const FitProgress& progress) { line.show(progress); };
+  options.stop_requested = is_interrupted;
+  options.on_progress = [&line](const FitProgress& progress) {
+    line.show([&] { return progress_text(progress); });
+  };
   FitRecord record = options.resume              ? resumed_record(command, arguments)
                      : !arguments.repeat.empty() ? repeated_record(arguments.repeat)
                                                  : new_record(command, arguments);
@@ -188,7 +158,7 @@ void run_fit(const CLI::App& command, const FitArguments& arguments) {
   const fs::path directory = options.resume          ? fs::path(arguments.resume)
                              : arguments.out.empty() ? unused_directory(record)
                                                      : fs::path(arguments.out);
-  std::signal(SIGINT, on_interrupt);
+  watch_for_interrupt();
   const FitResult result = fit(record, directory, options);
   line.end();
   if (!arguments.quiet) print_result(result, record, directory);

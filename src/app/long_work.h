@@ -1,0 +1,37 @@
+// What commands that work for long share: Ctrl-C that ends them in good order, and a line of progress.
+#pragma once
+#include <chrono>
+#include <optional>
+#include <string>
+
+namespace espalier {
+
+/// From now on the first Ctrl-C is noted, and the second kills. Files that grow beyond a limit become errors
+/// to report instead of a death.
+void watch_for_interrupt();
+bool is_interrupted();
+
+/// On stderr: one line that is written over on a terminal, a plain line now and then elsewhere.
+class ProgressLine {
+ public:
+  /// plain_pause_s: between two lines where there is no terminal.
+  ProgressLine(bool quiet, double plain_pause_s);
+
+  /// `text` is called where a line is due.
+  template <typename Text>
+  void show(Text text) {
+    if (is_due()) print(text());
+  }
+  /// Clears the line of a terminal.
+  void end() const;
+
+ private:
+  bool is_due() const;
+  void print(const std::string& text);
+
+  bool quiet_, terminal_;
+  double pause_s_;
+  std::optional<std::chrono::steady_clock::time_point> shown_at_;
+};
+
+}  // namespace espalier
