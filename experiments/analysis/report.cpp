@@ -122,6 +122,7 @@ Json meta_of(const ExperimentWords& words, const ReportOptions& options) {
           {"figure", words.figure},
           {"published", words.published},
           {"published_fitness", words.published_fitness},
+          {"found", words.found},
           {"note", words.note},
           {"command", fmt::format("./espalier experiment run experiments/{}.toml", words.name)},
           {"declaration", words.text},

@@ -15,8 +15,8 @@ SHOWN_ROWS = 200  # of a table; the file beside the page has them all
 
 CAPTIONS = {
     "sheet": "The pictures, by row and column.",
-    "generations": "Pixel accuracy by evaluations. Thick: the best so far; thin: the best of each generation. "
-                   "Grey band: what the dissertation reports at the end.",
+    "generations": "Fitness by evaluations. Thick: the best so far; thin: the best of each generation. Grey band, where "
+                   "there is one: what the source reports.",
     "convergence": "Best fitness so far over true evaluations (plants grown and compared): median of all runs; bands "
                    "between the quartiles. The methods with the best mean ranks are in colour.",
     "convergence_targets": "The same for each target.",
@@ -88,8 +88,9 @@ def source_beside_ours(meta):
     figure = meta.get("figure")
     published = card("Published" + (f": {text(figure)}" if figure else ""), meta.get("published") or
                      ("See the source." if figure else ""))
-    ours = card("Here", meta.get("note"))
-    return f"<div class=\"pair\">{published}{ours}</div>" if published or ours else ""
+    ours = card("Found here", meta.get("found"))
+    note = f"<p>{text(meta['note'])}</p>" if meta.get("note") else ""
+    return note + (f"<div class=\"pair\">{published}{ours}</div>" if published or ours else "")
 
 
 def plots(directory, stems):

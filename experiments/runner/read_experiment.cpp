@@ -324,7 +324,7 @@ GrowthDeclaration read_growth(const TomlSection& growth) {
   return declaration;
 }
 
-const std::vector<std::string> kWords{"title", "figure", "published", "published_fitness", "note"};
+const std::vector<std::string> kWords{"title", "figure", "published", "published_fitness", "found", "note"};
 const std::vector<std::string> kKinds{"fits", "pictures", "growth"};
 
 /// A file and the words in it.
@@ -367,6 +367,7 @@ Document read_document(const fs::path& path) {
   words.title = root.text_or("title", words.name);
   words.figure = root.text_or("figure", "");
   words.published = root.text_or("published", "");
+  words.found = root.text_or("found", "");
   words.note = root.text_or("note", "");
   words.published_fitness = read_range(root, "published_fitness");
   return document;

@@ -1,4 +1,4 @@
-// Every command of the README runs, in its order, in an empty directory that holds the bundled targets.
+// Every command of the README runs, in its order, in an empty directory that holds the bundled targets and experiments.
 // Searches are cut short; ./espalier test is left out, since this is it.
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -39,7 +39,8 @@ std::string shortened(std::string command) {
 TEST(Readme, EveryCommandRuns) {
   const fs::path directory = fs::temp_directory_path() / ("espalier_readme_" + std::to_string(getpid()));
   fs::create_directories(directory);
-  fs::create_directory_symlink(fs::path(ESPALIER_SOURCE_DIR) / "targets", directory / "targets");
+  for (const char* folder : {"targets", "experiments"})
+    fs::create_directory_symlink(fs::path(ESPALIER_SOURCE_DIR) / folder, directory / folder);
   const std::vector<std::string> commands = readme_commands();
   ASSERT_GE(commands.size(), 10u);
   for (const std::string& command : commands) {

@@ -1,4 +1,4 @@
-"""The progress of fits to goals, as the dissertation's Fig. 4.9: pixel accuracy by evaluations, a panel a target.
+"""The progress of fits to goals, as the dissertation's Fig. 4.9: fitness by evaluations, a panel a target.
 
 Thick: the best so far; thin: the best of each generation, which may fall where nothing is kept of the last one."""
 
@@ -7,7 +7,7 @@ from read import column, grouped, number, read_table
 
 COLUMNS = {"target": str, "optimizer": str, "seed": str, "evaluations": number, "generation": number,
            "batch_best": number, "best": number}
-PUBLISHED = (95, 97)  # %, "over the course of a few hours": the dissertation, section 4.2.4
+BELOW_BEST = 0.4  # of the range of the best so far: how far below it generations are shown
 
 
 def draw(directory, meta):
@@ -22,10 +22,27 @@ def draw(directory, meta):
         draw_target(panel, of_target, styles)
         panel.set_title(target, loc="left")
     for panel in axes[::2]:
-        panel.set_ylabel("pixel accuracy (%)")
-    band = axes[0].axhspan(*PUBLISHED, color=style.GREY, alpha=0.35, linewidth=0)
-    add_legend(figure, band, names, styles)
+        panel.set_ylabel("pixel accuracy (%)" if meta.get("objective") == "pixel_accuracy" else "fitness (%)")
+    axes[0].set_ylim(*limits(rows))
+    add_legend(figure, draw_published(axes, meta), names, styles)
     return {"generations": figure}
+
+
+def limits(rows):
+    """All of the best so far; single generations may be far worse."""
+    best = percent(rows, "best")
+    span = max(max(best) - min(best), 1)
+    return min(best) - BELOW_BEST * span, max(best) + 0.05 * span
+
+
+def draw_published(axes, meta):
+    """The range that the source found, as bands; (patch, label), or nothing where none is known."""
+    published = meta.get("published_fitness")
+    if not published:
+        return None
+    low, high = (100 * value for value in published)
+    bands = [panel.axhspan(low, high, color=style.GREY, alpha=0.35, linewidth=0, zorder=0) for panel in axes]
+    return bands[0], f"published: {low:g}–{high:g} %"
 
 
 def draw_target(axes, rows, styles):
@@ -35,7 +52,6 @@ def draw_target(axes, rows, styles):
                   alpha=0.6)
         axes.plot(evaluations, percent(run, "best"), drawstyle="steps-post", **styles[name])
     axes.set_xlabel("evaluations")
-    axes.axhspan(*PUBLISHED, color=style.GREY, alpha=0.35, linewidth=0, zorder=0)
     add_generations(axes, rows)
 
 
@@ -53,9 +69,12 @@ def add_generations(axes, rows):
     above.set_xlabel("generation")
 
 
-def add_legend(figure, band, names, styles):
+def add_legend(figure, published, names, styles):
     from matplotlib.lines import Line2D
-    lines = [Line2D([], [], **styles[name]) for name in names]
-    lines.append(Line2D([], [], color="#606060", linewidth=0.6))
-    figure.legend(lines + [band], names + ["best of a generation", "published: 95–97 % after hours"],
-                  loc="upper center", bbox_to_anchor=(0.5, 0), ncols=4, handlelength=3)
+    handles = [Line2D([], [], **styles[name]) for name in names]
+    handles.append(Line2D([], [], color="#606060", linewidth=0.6))
+    labels = names + ["best of a generation"]
+    if published:
+        handles.append(published[0])
+        labels.append(published[1])
+    figure.legend(handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=4, handlelength=3)
