@@ -71,6 +71,7 @@ struct ExperimentWords {
   std::string title;
   std::string figure;                     ///< of the source, as "4.9, 4.10"
   std::string published;                  ///< what the source found
+  std::string found;                      ///< what its own runs found
   std::string note;                       ///< a paragraph for the page
   std::vector<double> published_fitness;  ///< its range in the source, as [0.95, 0.97]; empty where unknown
   std::string text;                       ///< the whole file
