@@ -2,12 +2,16 @@
 
 Thick: the best so far; thin: the best of each generation, which may fall where nothing is kept of the last one."""
 
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
 import style
 from read import column, grouped, number, read_table
 
 COLUMNS = {"target": str, "optimizer": str, "seed": str, "evaluations": number, "generation": number,
            "batch_best": number, "best": number}
-PUBLISHED = (95, 97)  # %, "over the course of a few hours": the dissertation, section 4.2.4
+PUBLISHED = (95, 97)  # %, "over the course of a few hours": the dissertation, chapter 4
+BAND = {"color": style.GREY, "alpha": 0.35, "linewidth": 0}
 
 
 def draw(directory, meta):
@@ -23,8 +27,7 @@ def draw(directory, meta):
         panel.set_title(target, loc="left")
     for panel in axes[::2]:
         panel.set_ylabel("pixel accuracy (%)")
-    band = axes[0].axhspan(*PUBLISHED, color=style.GREY, alpha=0.35, linewidth=0)
-    add_legend(figure, band, names, styles)
+    add_legend(figure, names, styles)
     return {"generations": figure}
 
 
@@ -35,7 +38,7 @@ def draw_target(axes, rows, styles):
                   alpha=0.6)
         axes.plot(evaluations, percent(run, "best"), drawstyle="steps-post", **styles[name])
     axes.set_xlabel("evaluations")
-    axes.axhspan(*PUBLISHED, color=style.GREY, alpha=0.35, linewidth=0, zorder=0)
+    axes.axhspan(*PUBLISHED, zorder=0, **BAND)
     add_generations(axes, rows)
 
 
@@ -53,8 +56,8 @@ def add_generations(axes, rows):
     above.set_xlabel("generation")
 
 
-def add_legend(figure, band, names, styles):
-    from matplotlib.lines import Line2D
+def add_legend(figure, names, styles):
+    band = Patch(**BAND)
     lines = [Line2D([], [], **styles[name]) for name in names]
     lines.append(Line2D([], [], color="#606060", linewidth=0.6))
     figure.legend(lines + [band], names + ["best of a generation", "published: 95–97 % after hours"],
