@@ -74,6 +74,13 @@ def add_legend(target, names, styles, **place):
     return target.legend(lines, shown, handlelength=3, **place)
 
 
+def log_axis(axis):
+    """A logarithmic axis with plain numbers: 0.1, 10, 1000, not powers of ten."""
+    from matplotlib.ticker import FuncFormatter
+    getattr(axis.axes, f"set_{axis.axis_name}scale")("log")
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}" if value >= 1 else f"{value:g}"))
+
+
 def panels(count, width=3.2, height=2.3, columns=4, **options):
     """A grid of `count` axes and its figure; the places left over stay empty."""
     columns = min(count, columns)

@@ -1,6 +1,6 @@
 """Convergence: the best fitness so far over true evaluations, the median of all runs and the band of their quartiles.
 
-One figure for all targets together, one with a panel a target."""
+The lines join the points of the table, which are close. One figure for all targets together, one with a panel a target."""
 
 import matplotlib.pyplot as plt
 
@@ -9,6 +9,9 @@ from plots.order import best_first
 from read import column, grouped, number, read_table
 
 COLUMNS = {"target": str, "optimizer": str, "evaluations": number, "q25": number, "median": number, "q75": number}
+
+
+BANDS = 3  # more than these hide each other: where there are more methods, only the best have bands
 
 
 def draw(directory, meta):
@@ -30,7 +33,7 @@ def draw_one(rows, names):
     styles = style.line_styles(names)
     draw_curves(axes, rows, styles)
     label(axes)
-    axes.set_title("All targets: median of all runs, band between the quartiles", loc="left")
+    axes.set_title("All targets: median of all runs, " + band_words(names), loc="left")
     style.add_legend(axes, names, styles, loc="upper left", bbox_to_anchor=(1.01, 1))
     return figure
 
@@ -41,7 +44,7 @@ def draw_targets(targets, names):
     styles = style.line_styles(names)
     for panel, (target, rows) in zip(axes, targets.items()):
         draw_curves(panel, rows, styles, linewidth=1.1)
-        panel.set_xscale("log")
+        style.log_axis(panel.xaxis)
         panel.set_title(target, loc="left")
         panel.tick_params(labelsize=8)
     figure.supxlabel("evaluations", fontsize=10)
@@ -51,19 +54,27 @@ def draw_targets(targets, names):
 
 
 def draw_curves(axes, rows, styles, **options):
-    """Steps, since a fitness holds until a better one is found."""
     curves = grouped(rows, "optimizer")
+    banded = with_bands(list(styles))
     for name, how in styles.items():
         curve = curves.get(name, [])
         evaluations = column(curve, "evaluations")
-        axes.plot(evaluations, column(curve, "median"), drawstyle="steps-post",
-                  **({**options, **how} if not style.stands_out(how) else {**how, **options}))
-        if style.stands_out(how):
-            axes.fill_between(evaluations, column(curve, "q25"), column(curve, "q75"), step="post",
-                              color=how["color"], alpha=0.12, linewidth=0, zorder=1)
+        axes.plot(evaluations, column(curve, "median"), **{**options, **how})
+        if name in banded:
+            axes.fill_between(evaluations, column(curve, "q25"), column(curve, "q75"), color=how["color"],
+                              alpha=0.15, linewidth=0, zorder=1)
+
+
+def with_bands(names):
+    return names if len(names) <= BANDS + 1 else names[:BANDS]
+
+
+def band_words(names):
+    few = len(with_bands(names)) < len(names)
+    return "bands between the quartiles" + (f" ({BANDS} best methods)" if few else "")
 
 
 def label(axes):
-    axes.set_xscale("log")
+    style.log_axis(axes.xaxis)
     axes.set_xlabel("evaluations")
     axes.set_ylabel("fitness (1 - dissimilarity)")

@@ -20,8 +20,8 @@ def draw(directory, meta):
     styles = style.line_styles(names)
     figure, axes = plt.subplots(figsize=(7, 4.4))
     for name, curve in grouped(rows, "optimizer").items():
-        axes.plot(column(curve, "evaluations"), column(curve, "share"), drawstyle="steps-post", **styles[name])
-    axes.set_xscale("log")
+        axes.plot(column(curve, "evaluations"), column(curve, "share"), **styles[name])
+    style.log_axis(axes.xaxis)
     axes.set_ylim(0, 1)
     axes.yaxis.set_major_formatter(PercentFormatter(1))
     axes.set_xlabel("evaluations")

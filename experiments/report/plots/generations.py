@@ -2,6 +2,9 @@
 
 Thick: the best so far; thin: the best of each generation, which may fall where nothing is kept of the last one."""
 
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
 import style
 from read import column, grouped, number, read_table
 
@@ -70,7 +73,6 @@ def add_generations(axes, rows):
 
 
 def add_legend(figure, published, names, styles):
-    from matplotlib.lines import Line2D
     handles = [Line2D([], [], **styles[name]) for name in names]
     handles.append(Line2D([], [], color="#606060", linewidth=0.6))
     labels = names + ["best of a generation"]

@@ -19,7 +19,7 @@ def draw(directory, meta):
              boxprops={"facecolor": style.SKY, "linewidth": 0.8}, medianprops={"color": style.BLACK},
              whiskerprops={"linewidth": 0.8}, capprops={"linewidth": 0.8})
     axes.invert_yaxis()
-    axes.set_xscale("log")
+    style.log_axis(axes.xaxis)
     axes.set_xlabel("knots of the stems")
     axes.set_title("Smallest, quartiles, median and largest of each species", loc="left")
     return {"growth_complexity": figure}

@@ -34,7 +34,7 @@ def draw_species(rows):
     for place, (_, trees) in enumerate(species):
         draw_strip(axes, column(trees, "stem_seconds"), place - 0.17, style.BLUE)
         draw_strip(axes, column(trees, "leaf_seconds"), place + 0.17, style.ORANGE)
-    axes.set_xscale("log")
+    style.log_axis(axes.xaxis)
     axes.set_xlabel("time of one tree (ms)")
     axes.set_yticks(range(len(species)), [name for name, _ in species])
     axes.set_ylim(len(species) - 0.5, -0.5)
@@ -60,9 +60,8 @@ def add_time_legend(axes):
 
 def draw_sizes(rows, fits):
     figure, (stems, leaves) = plt.subplots(1, 2, figsize=(11, 4.2), layout="constrained")
-    species = list(grouped(rows, "species"))
-    draw_cloud(stems, rows, species, "knots", "stem_seconds", fit_of(fits, False))
-    draw_cloud(leaves, rows, species, "leaves", "leaf_seconds", fit_of(fits, True))
+    draw_cloud(stems, rows, "knots", "stem_seconds", fit_of(fits, False))
+    draw_cloud(leaves, rows, "leaves", "leaf_seconds", fit_of(fits, True))
     stems.set(xlabel="knots of the stems", ylabel="time of the stems (ms)")
     leaves.set(xlabel="leaves", ylabel="time of the leaves (ms)")
     add_published_slope(stems, rows)
@@ -81,19 +80,19 @@ def points(rows, size, time):
     return [(row[size], 1000 * row[time]) for row in rows if row[size] and row[time] and row[time] > 0]
 
 
-def draw_cloud(axes, rows, species, size, time, fit):
-    """Trees in grey, one species like another: the line is what is asked about; each species is named once."""
+def draw_cloud(axes, rows, size, time, fit):
+    """Trees of all species alike: the line through them is what is asked about."""
     pairs = points(rows, size, time)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    style.log_axis(axes.xaxis)
+    style.log_axis(axes.yaxis)
     if not pairs:
         return
     axes.plot(*zip(*pairs), "o", color=style.BLUE, markersize=3.5, alpha=0.35, markeredgewidth=0, rasterized=True)
     if fit:
         ends = [min(x for x, _ in pairs), max(x for x, _ in pairs)]
-        error = f" ± {fit['standard_error']:.2f}" if fit["standard_error"] is not None else ""
+        error = f" ± {fit['standard_error']:.1g}" if fit["standard_error"] is not None else ""
         axes.plot(ends, [1000 * fit["factor"] * x ** fit["exponent"] for x in ends], color=style.VERMILLION,
-                  label=f"fitted exponent {fit['exponent']:.2f}{error}")
+                  label=f"fitted exponent {fit['exponent']:.3f}{error}")
 
 
 def add_published_slope(axes, rows):

@@ -26,7 +26,10 @@ def draw_rows(rows, friedman):
     height, width = 0.215 * len(rows), 0.14 * len(lanes)
     figure, (axes, groups) = plt.subplots(
         1, 2, sharey=True, figsize=(5.2 + width, height + 0.9), width_ratios=[5, max(width, 0.4)],
-        gridspec_kw={"wspace": 0.3 / (5 + width)})
+        gridspec_kw={"wspace": 0})
+    for place in range(0, len(rows), 2):  # lead the eye from a name to its bars
+        axes.axhspan(place - 0.5, place + 0.5, color="#F3F3F3", linewidth=0, zorder=0)
+        groups.axhspan(place - 0.5, place + 0.5, color="#F3F3F3", linewidth=0, zorder=0)
     draw_dots(axes, rows)
     draw_groups(groups, lanes)
     draw_critical_difference(axes, rows, friedman.get("critical_difference"))
@@ -37,12 +40,12 @@ def draw_rows(rows, friedman):
 def draw_dots(axes, rows):
     ranks = [row["mean_rank"] for row in rows]
     places = range(len(rows))
-    axes.hlines(places, min(ranks), ranks, color="#E4E4E4", linewidth=1)
     axes.scatter(ranks, places, s=22, color=style.BLUE, zorder=3)
     for place, rank in enumerate(ranks):
         axes.annotate(f"{rank:.1f}", (rank, place), xytext=(6, 0), textcoords="offset points", va="center", fontsize=7)
     axes.set_yticks(places, [row["optimizer"] for row in rows], fontsize=8)
-    axes.set_ylim(len(rows) - 0.4, -0.6)
+    axes.set_ylim(len(rows) - 0.5, -0.5)
+    axes.margins(x=0.08)
     axes.grid(False)
     axes.tick_params(axis="y", length=0)
     axes.set_xlabel("mean rank (1 is the best)")

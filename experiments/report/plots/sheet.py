@@ -40,4 +40,8 @@ def draw_cell(axes, directory, path):
     if not (directory / path).exists():
         axes.text(0.5, 0.5, "no picture", ha="center", va="center", fontsize=8, transform=axes.transAxes)
         return
-    axes.imshow(plt.imread(directory / path), cmap="gray", interpolation="none", vmin=0)
+    try:
+        pixels = plt.imread(directory / path)
+    except (OSError, SyntaxError, ValueError) as error:  # what Pillow raises for a broken PNG
+        raise ReportError(f"{directory / path}: got no picture ({error}), expected a PNG file") from None
+    axes.imshow(pixels, cmap="gray", interpolation="none", vmin=0)
