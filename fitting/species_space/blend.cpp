@@ -1,0 +1,81 @@
+#include "fitting/species_space/blend.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace espalier {
+
+namespace {
+
+double between(double a, double b, double t) { return a == b ? a : (1 - t) * a + t * b; }
+
+/// An effect that the other plant has not, gone where the other plant's takes over.
+double fading(double a, double b, double t, double turn) {
+  return a > 0 ? a * std::max(0.0, 1 - t / turn) : b * std::max(0.0, (t - turn) / (1 - turn));
+}
+
+double turn_of(std::size_t, std::size_t) { return 0.5; }
+
+/// Both plants with as many levels as the deeper one.
+void deepen(const Model& model, ParameterValues& a, ParameterValues& b) {
+  const auto row = model.table().find(model.table().levels_row);
+  if (!row) return;
+  const int levels = static_cast<int>(std::max(a[*row], b[*row]));
+  a = model.deepened(a, levels);
+  b = model.deepened(b, levels);
+}
+
+/// Magnitudes that are all zero say nothing about their side: it is the other plant's.
+bool is_nothing(const Encoding& encoding, const EncodedValues& plant, std::size_t row) {
+  bool nothing = true;
+  for (std::size_t column = 0; column < plant.numbers.size(); ++column)
+    if (encoding.columns()[column].row == row)
+      nothing = nothing && (plant.numbers[column] == 0 || !plant.means[column]);
+  return nothing && encoding.table().rows[row].sign == SignMeaning::flag;
+}
+
+double choose(const Encoding& encoding, const EncodedValues& a, const EncodedValues& b, std::size_t choice,
+              double t) {
+  const std::size_t row = encoding.choices()[choice].row;
+  if (is_nothing(encoding, a, row)) return b.choices[choice];
+  if (is_nothing(encoding, b, row)) return a.choices[choice];
+  return t < turn_of(choice, 0) ? a.choices[choice] : b.choices[choice];
+}
+
+double mix(const Encoding& encoding, const EncodedValues& a, const EncodedValues& b, std::size_t column,
+           double t) {
+  const double from = a.numbers[column], to = b.numbers[column];
+  if (a.means[column] != b.means[column]) return a.means[column] ? from : to;
+  const bool one_sided = encoding.columns()[column].fades && (from == 0) != (to == 0);
+  if (!one_sided) return between(from, to, t);
+  const std::size_t row = encoding.columns()[column].row;
+  const EncodedValues& other = from == 0 ? a : b;
+  return is_nothing(encoding, other, row) ? between(from, to, t) : fading(from, to, t, turn_of(0, 0));
+}
+
+}  // namespace
+
+ParameterValues blend(const Model& model, const Encoding& encoding, const ParameterValues& a,
+                      const ParameterValues& b, double t) {
+  if (!(t >= 0 && t <= 1)) throw_input_error("--t: got {}, expected a number 0 … 1", t);
+  if (t == 0 || a == b) return a;
+  if (t == 1) return b;
+  ParameterValues deep_a = a, deep_b = b;
+  if (encoding.levels_are_a_choice()) deepen(model, deep_a, deep_b);
+  const EncodedValues from = encoding.encode(deep_a), to = encoding.encode(deep_b);
+  EncodedValues mixed = from;
+  for (std::size_t column = 0; column < mixed.numbers.size(); ++column)
+    mixed.numbers[column] = mix(encoding, from, to, column, t);
+  for (std::size_t choice = 0; choice < mixed.choices.size(); ++choice)
+    mixed.choices[choice] = choose(encoding, from, to, choice, t);
+  ParameterValues values = encoding.decode(mixed).values;
+  for (std::size_t row = 0; row < values.size(); ++row)
+    if (deep_a[row] == deep_b[row]) values[row] = deep_a[row];
+  const auto relaxed = model.table().find(model.table().relaxed_row);
+  if (relaxed && encoding.levels_are_a_choice()) values[*relaxed] = 1;
+  return values;
+}
+
+}  // namespace espalier
