@@ -4,19 +4,13 @@
 #include <cmath>
 #include <exception>
 
+#include "fitting/plant_pictures.h"
 #include "image/frame.h"
 #include "render/silhouette.h"
 
 namespace espalier {
 
 namespace {
-
-/// The side in metres of a square frame that holds the plant as fits frame it.
-double frame_m(const Plant& plant) {
-  const Bounds box = bounds(plant);
-  const float half_width_m = std::max({-box.lower.x, box.upper.x, 1e-3f});
-  return std::max(box.upper.z / kFramedHeight, half_width_m / kFramedHalfWidth);
-}
 
 /// One that holds all of the seeds' trees.
 double largest_frame_m(const Model& model, const ParameterValues& values, int seeds) {
@@ -35,14 +29,15 @@ Mask silhouette(const Model& model, const ParameterValues& values, Seed seed, do
   plant.clear();
   if (!model.generate(values, seed, {}, plant).grown) return mask;
   const auto metres_per_px = static_cast<float>(frame / size_px);
-  renderer->draw(plant, frame_base({0, 0, 0}, {}, metres_per_px, size_px, size_px, base_row_px(size_px)), mask);
+  renderer->draw(plant, frame_base({0, 0, 0}, {}, metres_per_px, size_px, size_px, base_row_px(size_px)),
+                 mask);
   return mask;
 }
 
 }  // namespace
 
-std::vector<ParameterValues> blend_strip(const Model& model, const Encoding& encoding, const ParameterValues& a,
-                                         const ParameterValues& b, int steps) {
+std::vector<ParameterValues> blend_strip(const Model& model, const Encoding& encoding,
+                                         const ParameterValues& a, const ParameterValues& b, int steps) {
   std::vector<ParameterValues> strip;
   for (int i = 0; i <= steps; ++i)
     strip.push_back(blend(model, encoding, a, b, static_cast<double>(i) / steps));
@@ -82,8 +77,7 @@ StripEvenness strip_evenness(const std::vector<double>& changes) {
   std::vector<double> sorted = changes;
   std::sort(sorted.begin(), sorted.end());
   const std::size_t middle = sorted.size() / 2;
-  const double median =
-      sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
+  const double median = sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
   const auto largest = std::max_element(changes.begin(), changes.end());
   return {median, *largest, static_cast<int>(largest - changes.begin())};
 }

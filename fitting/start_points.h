@@ -19,11 +19,6 @@ struct StartPoint {
 /// Multiplies all values in metres by `factor` (clamped to what is valid): a similar plant.
 void scale_plant(const ParameterTable& table, double factor, ParameterValues& values);
 
-/// Scales leaves and branches of the deepest level down until the estimate fits the budget; what is left of
-/// the leaves grows so that it covers as much. A plant that does not get there in a few steps is left as thin
-/// as it got; its score says so.
-void thin_to_budget(const Model& model, const GrowthBudget& budget, ParameterValues& values);
-
 /// The start points of `start`: "auto" (each bundled preset of the model), "defaults" (those of the
 /// table), or names and paths of presets with commas between. Each preset also without its leaves, if it
 /// has any. Grown trees are `height_m` tall. Fixed values are set, counts may be relaxed, and the size does

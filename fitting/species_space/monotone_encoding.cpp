@@ -24,7 +24,8 @@ class Codec {
   virtual void add_fields(const ParameterInfo& row, std::size_t index, std::vector<EncodingColumn>& columns,
                           std::vector<EncodingChoice>& choices) const = 0;
   virtual void write(const ParameterInfo& row, double value, Fields fields) const = 0;
-  virtual double read(const ParameterInfo& row, Fields fields) const = 0;
+  /// Notes in `clamped` a magnitude below zero, which is read as none.
+  virtual double read(const ParameterInfo& row, Fields fields, std::vector<ClampedValue>& clamped) const = 0;
   /// Whether column `column` of the row means something where the row does.
   virtual bool means(double value, std::size_t column) const {
     (void)value, (void)column;
@@ -44,7 +45,9 @@ class NumberCodec : public Codec {
   void write(const ParameterInfo& row, double value, Fields fields) const override {
     *fields.numbers = write_(row, value);
   }
-  double read(const ParameterInfo& row, Fields fields) const override { return read_(row, *fields.numbers); }
+  double read(const ParameterInfo& row, Fields fields, std::vector<ClampedValue>&) const override {
+    return read_(row, *fields.numbers);
+  }
 
  private:
   Function write_, read_;
@@ -55,9 +58,11 @@ double smallest(const ParameterInfo& row) { return row.lower > 0 ? 0 : 1e-3 * ro
 
 const NumberCodec kLinear([](const ParameterInfo&, double value) { return value; },
                           [](const ParameterInfo&, double number) { return number; });
-const NumberCodec kLogarithmic(
-    [](const ParameterInfo& row, double value) { return std::log(value + smallest(row)); },
-    [](const ParameterInfo& row, double number) { return std::exp(number) - smallest(row); });
+const NumberCodec kLogarithmic([](const ParameterInfo& row,
+                                  double value) { return std::log(value + smallest(row)); },
+                               [](const ParameterInfo& row, double number) {
+                                 return std::exp(number) - smallest(row);
+                               });
 
 /// Counts of children multiply from level to level, so they too blend in logarithm, from none on.
 double log_count(double count) { return std::log1p(count); }
@@ -70,8 +75,16 @@ class ChoiceCodec : public Codec {
     choices.push_back({row.full_name(), index});
   }
   void write(const ParameterInfo&, double value, Fields fields) const override { *fields.choices = value; }
-  double read(const ParameterInfo&, Fields fields) const override { return *fields.choices; }
+  double read(const ParameterInfo&, Fields fields, std::vector<ClampedValue>&) const override {
+    return *fields.choices;
+  }
 };
+
+/// Nothing where the number is below zero by more than rounding, which is noted.
+double magnitude(const ParameterInfo& row, double number, std::vector<ClampedValue>& clamped) {
+  if (number < -1e-9) clamped.push_back({row.full_name(), number, 0});
+  return std::max(0.0, number);
+}
 
 std::string below_zero(const ParameterInfo& row) { return row.full_name() + " is below 0"; }
 
@@ -89,8 +102,9 @@ class OneMeasureCodec : public Codec {
     *fields.choices = value < 0;
     *fields.numbers = counts_children(row) ? log_count(std::fabs(value)) : std::fabs(value);
   }
-  double read(const ParameterInfo& row, Fields fields) const override {
-    const double measure = std::max(0.0, counts_children(row) ? count_of(*fields.numbers) : *fields.numbers);
+  double read(const ParameterInfo& row, Fields fields, std::vector<ClampedValue>& clamped) const override {
+    const double number = magnitude(row, *fields.numbers, clamped);
+    const double measure = counts_children(row) ? count_of(number) : number;
     return *fields.choices > 0.5 ? -measure : measure;
   }
 };
@@ -111,8 +125,9 @@ class TwoMeasuresCodec : public Codec {
     fields.numbers[0] = std::max(0.0, -value);
     fields.numbers[1] = std::max(0.0, value);
   }
-  double read(const ParameterInfo&, Fields fields) const override {
-    return *fields.choices > 0.5 ? -std::max(0.0, fields.numbers[0]) : std::max(0.0, fields.numbers[1]);
+  double read(const ParameterInfo& row, Fields fields, std::vector<ClampedValue>& clamped) const override {
+    return *fields.choices > 0.5 ? -magnitude(row, fields.numbers[0], clamped)
+                                 : magnitude(row, fields.numbers[1], clamped);
   }
   bool means(double value, std::size_t column) const override {
     return meet_at_zero_ || (value < 0) == (column == 0);
@@ -136,9 +151,9 @@ class TaperCodec : public Codec {
     fields.numbers[0] = value < 1 ? value : std::max(0.0, 2 - value);
     fields.numbers[1] = std::max(0.0, value - 2);
   }
-  double read(const ParameterInfo&, Fields fields) const override {
-    const double narrowing = std::clamp(fields.numbers[0], 0.0, 1.0);
-    return *fields.choices > 0.5 ? 2 - narrowing + std::max(0.0, fields.numbers[1]) : narrowing;
+  double read(const ParameterInfo& row, Fields fields, std::vector<ClampedValue>& clamped) const override {
+    const double narrowing = std::min(1.0, magnitude(row, fields.numbers[0], clamped));
+    return *fields.choices > 0.5 ? 2 - narrowing + magnitude(row, fields.numbers[1], clamped) : narrowing;
   }
 };
 
@@ -206,8 +221,7 @@ void MonotoneEncoding::add_mixed(std::size_t row) {
   const ParameterInfo& info = table_->rows[row];
   mixed_.push_back({row, table_->index_of(info.mixed_with), table_->index_of(info.mixed_by), columns_.size(),
                     info.choices.size()});
-  for (const std::string& choice : info.choices)
-    columns_.push_back({info.full_name() + " " + choice, row});
+  for (const std::string& choice : info.choices) columns_.push_back({info.full_name() + " " + choice, row});
 }
 
 bool MonotoneEncoding::is_mixed(std::size_t row) const {
@@ -242,8 +256,8 @@ EncodedValues MonotoneEncoding::encode(const ParameterValues& values) const {
   for (std::size_t column = 0; column < columns_.size(); ++column) {
     const std::size_t row = columns_[column].row;
     if (rows_[row].codec)
-      encoded.means[column] = row_means(row, values) &&
-                              rows_[row].codec->means(values[row], column - rows_[row].first_column);
+      encoded.means[column] =
+          row_means(row, values) && rows_[row].codec->means(values[row], column - rows_[row].first_column);
   }
   return encoded;
 }
@@ -257,7 +271,8 @@ DecodedValues MonotoneEncoding::decode(const EncodedValues& encoded) const {
     if (rows_[row].codec) {
       const double value = rows_[row].codec->read(
           table_->rows[row],
-          {fields.numbers.data() + rows_[row].first_column, fields.choices.data() + rows_[row].first_choice});
+          {fields.numbers.data() + rows_[row].first_column, fields.choices.data() + rows_[row].first_choice},
+          decoded.clamped);
       decoded.values[row] = valid_value(table_->rows[row], value, decoded.clamped);
     }
   return decoded;
