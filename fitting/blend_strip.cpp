@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 
+#include "core/parallel_for.h"
 #include "fitting/plant_pictures.h"
 #include "image/frame.h"
 #include "render/silhouette.h"
@@ -48,24 +48,13 @@ std::vector<double> silhouette_changes(const Model& model, const std::vector<Par
                                        const StripView& view) {
   const double first = largest_frame_m(model, strip.front(), view.seeds);
   const double last = largest_frame_m(model, strip.back(), view.seeds);
-  const auto plants = static_cast<long>(strip.size()), seeds = static_cast<long>(view.seeds);
-  std::vector<Mask> masks(strip.size() * static_cast<std::size_t>(view.seeds));
-  std::vector<std::exception_ptr> errors(masks.size());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (long i = 0; i < plants * seeds; ++i) {
-    const auto slot = static_cast<std::size_t>(i);
-    const double t = static_cast<double>(i / seeds) / static_cast<double>(plants - 1);
-    const double frame = first * std::pow(last / first, t);
-    try {
-      masks[slot] = silhouette(model, strip[slot / static_cast<std::size_t>(seeds)],
-                               static_cast<Seed>(i % seeds + 1), frame, view.size_px);
-    } catch (...) {
-      errors[slot] = std::current_exception();
-    }
-  }
-  for (const std::exception_ptr& error : errors)
-    if (error) std::rethrow_exception(error);
-  const auto stride = static_cast<std::size_t>(seeds);
+  const auto stride = static_cast<std::size_t>(view.seeds);
+  std::vector<Mask> masks(strip.size() * stride);
+  parallel_for(masks.size(), [&](std::size_t i) {
+    const double t = static_cast<double>(i / stride) / static_cast<double>(strip.size() - 1);
+    masks[i] = silhouette(model, strip[i / stride], static_cast<Seed>(i % stride + 1),
+                          first * std::pow(last / first, t), view.size_px);
+  });
   std::vector<double> changes(strip.size() - 1, 0);
   for (std::size_t i = 0; i + stride < masks.size(); ++i)
     changes[i / stride] += static_cast<double>(differing_px(masks[i], masks[i + stride])) /

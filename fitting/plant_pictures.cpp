@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel_for.h"
 #include "fitting/chart_layout.h"
 #include "image/frame.h"
 #include "render/shaded.h"
@@ -14,7 +15,7 @@ namespace espalier {
 
 namespace {
 
-constexpr int kTextRowPx = 24, kGapPx = 4, kSamples = 8;
+constexpr int kTextRowPx = 24, kGapPx = 4, kSamples = 5;
 
 ShadedSettings on_white() {
   ShadedSettings settings;
@@ -61,15 +62,20 @@ Picture tile_picture(const Model& model, const std::vector<std::vector<PlantTile
   std::size_t columns = 1;
   for (const auto& row : rows) columns = std::max(columns, row.size());
   const int step_x = view.size_px + kGapPx, step_y = view.size_px + kTextRowPx;
+  std::vector<const PlantTile*> tiles;
   ChartLayout layout;
   for (std::size_t j = 0; j < rows.size(); ++j)
     for (std::size_t i = 0; i < rows[j].size(); ++i) {
-      const auto left = static_cast<float>(static_cast<int>(i) * step_x);
-      const auto top = static_cast<float>(static_cast<int>(j) * step_y);
-      layout.images.push_back({{left, top}, shaded_tile(model, rows[j][i], view), {}});
+      const ChartPoint corner{static_cast<float>(static_cast<int>(i) * step_x),
+                              static_cast<float>(static_cast<int>(j) * step_y)};
       const auto size = static_cast<float>(view.size_px);
-      layout.labels.push_back({{left + size / 2, top + size + kTextRowPx / 2}, rows[j][i].text});
+      tiles.push_back(&rows[j][i]);
+      layout.images.push_back({corner, {}, {}});
+      layout.labels.push_back(
+          {{corner.x_px + size / 2, corner.y_px + size + kTextRowPx / 2}, rows[j][i].text});
     }
+  parallel_for(tiles.size(),
+               [&](std::size_t i) { layout.images[i].picture = shaded_tile(model, *tiles[i], view); });
   return layout_to_picture(layout, static_cast<int>(columns) * step_x - kGapPx,
                            static_cast<int>(rows.size()) * step_y);
 }

@@ -21,7 +21,8 @@ struct PlantTile {
 struct TileView {
   int size_px = 256;  ///< of a tile's square
   Seed seed = 1;      ///< of the plants
-  GrowthBudget budget = {};
+  GrowthBudget budget = {100'000,
+                         500'000};  ///< more than this, a picture of some hundred pixels does not show
 };
 
 /// The side in metres of a square that holds a plant with its base in the middle of the bottom, as fits frame

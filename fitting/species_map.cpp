@@ -12,7 +12,7 @@ namespace espalier {
 
 namespace {
 
-constexpr int kWidthPx = 1560, kHeightPx = 1000, kTreePx = 104;
+constexpr int kWidthPx = 1560, kHeightPx = 1000, kTreePx = 92;
 constexpr float kLeftPx = 90, kRightPx = 1120, kTopPx = 24, kBottomPx = 920, kTextPx = 18;
 constexpr std::size_t kArrows = 10;
 constexpr Rgb kInk{60, 60, 60}, kGrid{230, 230, 230}, kPoint{213, 94, 0}, kLeader{150, 150, 150},
@@ -104,7 +104,8 @@ std::vector<TreeBox> place_trees(const SpeciesSpace& space, const MapScale& scal
   std::vector<TreeBox> boxes;
   for (const SpeciesPoint& species : space.species) {
     const ChartPoint point = scale.to_px(species.coordinates[0], second(species.coordinates));
-    const float width = std::max<float>(kTreePx, text_width_px(species.name) + 6), height = kTreePx + kTextPx;
+    const float width = std::max<float>(kTreePx, text_width_px(species.name) + 16),
+                height = kTreePx + kTextPx;
     boxes.push_back({point, point.x_px - width / 2, point.y_px - height / 2, width, height});
     keep_on_map(boxes.back());
   }

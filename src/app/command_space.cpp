@@ -16,6 +16,7 @@
 #include "app/view_options.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/parallel_for.h"
 #include "fitting/plant_pictures.h"
 #include "fitting/space_plant.h"
 #include "fitting/species_map.h"
@@ -82,15 +83,17 @@ Eigen::VectorXd grid_point(const SpeciesSpace& space, GridSize size, int column,
 void write_sheet(const SpeciesSpace& space, const SpaceCommandOptions& options) {
   const GridSize size = parse_grid(options.grid);
   const TileView view{.size_px = options.tile_px, .seed = options.seed};
-  std::vector<std::vector<PlantTile>> rows(static_cast<std::size_t>(size.rows));
-  for (int row = 0; row < size.rows; ++row)
-    for (int column = 0; column < size.columns; ++column) {
-      const Eigen::VectorXd point = grid_point(space, size, column, row);
-      rows[static_cast<std::size_t>(row)].push_back(
-          {growing_plant_at(space, point, view.budget, view.seed).values,
-           space.dimension() > 1 ? fmt::format("{:.1f}, {:.1f}", point[0], point[1])
-                                 : fmt::format("{:.1f}", point[0])});
-    }
+  const auto columns = static_cast<std::size_t>(size.columns),
+             count = static_cast<std::size_t>(size.rows) * columns;
+  std::vector<std::vector<PlantTile>> rows(static_cast<std::size_t>(size.rows),
+                                           std::vector<PlantTile>(columns));
+  parallel_for(count, [&](std::size_t i) {
+    const Eigen::VectorXd point =
+        grid_point(space, size, static_cast<int>(i % columns), static_cast<int>(i / columns));
+    const std::string second = space.dimension() > 1 ? fmt::format(", {:.1f}", point[1]) : "";
+    rows[i / columns][i % columns] = {growing_plant_at(space, point, view.budget, view.seed).values,
+                                      fmt::format("{:.1f}{}", point[0], second)};
+  });
   write_png(options.output, tile_picture(*space.model, rows, view));
 }
 

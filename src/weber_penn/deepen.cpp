@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "weber_penn/estimate.h"
 #include "weber_penn/parameters.h"
 
 namespace espalier {
@@ -41,15 +42,11 @@ void point_leaves_along(NamedValues value, int level) {
     value(name, level) = 0;
 }
 
-/// Stalks along the stem, and on each as many leaves that there are as many as before. A stalk at offset z of
-/// its parent bears leaf_blos_num·(1 - 0.7 z) leaves, 0.65 in the mean.
+/// Stalks along the stem, each with about one leaf: at offset z of its parent it bears leaf_blos_num·(1 - 0.7
+/// z).
 void move_leaves_along(NamedValues value, int parent_level) {
-  constexpr double kMeanShare = 0.65;
-  const double deep_share =
-      parent_level >= 2 ? kMeanShare / 0.75 : 1;  // deeper stems bear more stems than leaves
-  value("branches", parent_level + 1) =
-      value("leaf_blos_num") * (1 - value("base_size", parent_level)) * deep_share;
-  value("leaf_blos_num") = 1 / kMeanShare;
+  value("branches", parent_level + 1) = value("leaf_blos_num");
+  value("leaf_blos_num") = 1 / 0.65;
 }
 
 /// A fan of stalks at the tip, where z = 1; the tip must not end in a point, on which no stem grows.
@@ -60,16 +57,24 @@ void move_leaf_fan(NamedValues value, int parent_level) {
   value("leaf_blos_num") = 1 / 0.3;
 }
 
+double expected_leaves(const ParameterValues& values) {
+  return estimate_growth(weber_penn_parameters(values)).leaves;
+}
+
+/// Splitting stems bear leaves and stems at different rates: as many stalks as it takes to expect as many
+/// leaves.
 void add_level(NamedValues value) {
+  const double leaves = expected_leaves(value.values);
   const int stalk_level = static_cast<int>(value("levels"));
   make_stalk(value, stalk_level);
   point_leaves_along(value, stalk_level + 1);
   value("leaf_blos_num") < 0 ? move_leaf_fan(value, stalk_level - 1)
                              : move_leaves_along(value, stalk_level - 1);
-  double& stalks = value("branches", stalk_level);
-  stalks = std::clamp(stalks, -1000.0, 1000.0);
   value("relaxed_counts") = 1;
   value("levels") += 1;
+  const double leaves_on_stalks = expected_leaves(value.values);
+  double& stalks = value("branches", stalk_level);
+  if (leaves_on_stalks > 0) stalks = std::clamp(stalks * leaves / leaves_on_stalks, -1000.0, 1000.0);
 }
 
 }  // namespace
