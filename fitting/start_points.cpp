@@ -17,11 +17,6 @@ void set_if_known(const ParameterTable& table, const std::string& name, double v
   if (const auto row = table.find(name)) values[*row] = value;
 }
 
-bool has_leaves(const ParameterTable& table, const ParameterValues& values) {
-  const auto row = table.find("leaf_blos_num");
-  return row && values[*row] != 0;
-}
-
 std::vector<std::string> split_at_commas(const std::string& text) {
   std::vector<std::string> parts;
   std::stringstream stream(text);
@@ -71,6 +66,23 @@ void scale_plant(const ParameterTable& table, double factor, ParameterValues& va
       values[i] = std::clamp(values[i] * factor, table.rows[i].lower, table.rows[i].upper);
 }
 
+void prepare_start(const Model& model, const GrowthBudget& budget, double height_m, Seed plant_seed,
+                   ParameterValues& values) {
+  set_if_known(model.table(), "g_scale_v", 0, values);
+  set_if_known(model.table(), "relaxed_counts", 1, values);
+  thin_until_grown(model, budget, plant_seed, values);
+  scale_to_height(model, budget, height_m, plant_seed, values);
+}
+
+bool has_leaves(const ParameterTable& table, const ParameterValues& values) {
+  const auto row = table.find("leaf_blos_num");
+  return row && values[*row] != 0;
+}
+
+void take_leaves(const ParameterTable& table, ParameterValues& values) {
+  set_if_known(table, "leaf_blos_num", 0, values);
+}
+
 std::vector<StartPoint> make_start_points(const Model& model, const std::string& start,
                                           const SearchChoice& choice, const GrowthBudget& budget,
                                           double height_m, Seed plant_seed) {
@@ -80,13 +92,10 @@ std::vector<StartPoint> make_start_points(const Model& model, const std::string&
                                        : load_starts(table, start);
   const std::size_t presets = points.size();
   for (std::size_t i = 0; i < presets; ++i) {
-    set_if_known(table, "g_scale_v", 0, points[i].values);
-    set_if_known(table, "relaxed_counts", 1, points[i].values);
-    thin_until_grown(model, budget, plant_seed, points[i].values);
-    scale_to_height(model, budget, height_m, plant_seed, points[i].values);
+    prepare_start(model, budget, height_m, plant_seed, points[i].values);
     if (has_leaves(table, points[i].values)) {
       points.push_back({points[i].name + " without leaves", points[i].values});
-      set_if_known(table, "leaf_blos_num", 0, points.back().values);
+      take_leaves(table, points.back().values);
     }
   }
   for (StartPoint& point : points) apply_fixed(table, choice, point.values);

@@ -19,6 +19,14 @@ struct StartPoint {
 /// Multiplies all values in metres by `factor` (clamped to what is valid): a similar plant.
 void scale_plant(const ParameterTable& table, double factor, ParameterValues& values);
 
+/// Makes a candidate of any plant: its size does not vary, counts may be relaxed, it is thinned until this
+/// seed's tree grows within the budget, and that tree is `height_m` tall.
+void prepare_start(const Model& model, const GrowthBudget& budget, double height_m, Seed plant_seed,
+                   ParameterValues& values);
+
+bool has_leaves(const ParameterTable& table, const ParameterValues& values);
+void take_leaves(const ParameterTable& table, ParameterValues& values);
+
 /// The start points of `start`: "auto" (each bundled preset of the model), "defaults" (those of the
 /// table), or names and paths of presets with commas between. Each preset also without its leaves, if it
 /// has any. Grown trees are `height_m` tall. Fixed values are set, counts may be relaxed, and the size does

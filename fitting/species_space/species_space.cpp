@@ -91,6 +91,17 @@ void keep_meaningful(const Encoding& encoding, const ParameterValues& values,
   std::erase_if(clamped, [&](const ClampedValue& one) { return meaningful.erase(one.parameter) == 0; });
 }
 
+PlantAtPoint finish_plant(const SpeciesSpace& space, const Eigen::VectorXd& coordinates,
+                          const std::string& nearest, DecodedValues decoded) {
+  PlantAtPoint plant{std::move(decoded.values), std::move(decoded.clamped), nearest, 0};
+  keep_meaningful(*space.encoding, plant.values, plant.clamped);
+  Eigen::MatrixXd corners(space.dimension(), static_cast<Index>(space.species.size()));
+  for (Index i = 0; i < corners.cols(); ++i)
+    corners.col(i) = space.species[static_cast<std::size_t>(i)].coordinates;
+  plant.outside = distance_to_hull(corners, coordinates);
+  return plant;
+}
+
 }  // namespace
 
 SpeciesSpace make_species_space(std::span<const Preset> presets, const std::string& encoding,
@@ -107,25 +118,31 @@ SpeciesSpace make_species_space(std::span<const Preset> presets, const std::stri
     means.row(i) = gaps_of(encoded);
   }
   space.pca = principal_components(numbers, means, components);
-  for (const Preset& preset : presets) {
-    const EncodedValues encoded = space.encoding->encode(preset.values);
-    space.species.push_back({preset.name, preset.values, project(space.pca, standard_row(space, encoded))});
-  }
+  for (const Preset& preset : presets)
+    space.species.push_back({preset.name, preset.values, coordinates_of(space, preset.values)});
   return space;
+}
+
+Eigen::VectorXd coordinates_of(const SpeciesSpace& space, const ParameterValues& values) {
+  return project(space.pca, standard_row(space, space.encoding->encode(values)));
 }
 
 PlantAtPoint plant_at(const SpeciesSpace& space, const Eigen::VectorXd& coordinates) {
   ESPALIER_CHECK_EQ(coordinates.size(), static_cast<Index>(space.dimension()));
   const SpeciesPoint& nearest = space.species[nearest_species(space, coordinates)];
-  DecodedValues decoded =
-      decode_in_range(space, space.encoding->encode(nearest.values), reconstruct(space.pca, coordinates));
-  PlantAtPoint plant{std::move(decoded.values), std::move(decoded.clamped), nearest.name, 0};
-  keep_meaningful(*space.encoding, plant.values, plant.clamped);
-  Eigen::MatrixXd corners(space.dimension(), static_cast<Index>(space.species.size()));
-  for (Index i = 0; i < corners.cols(); ++i)
-    corners.col(i) = space.species[static_cast<std::size_t>(i)].coordinates;
-  plant.outside = distance_to_hull(corners, coordinates);
-  return plant;
+  return finish_plant(
+      space, coordinates, nearest.name,
+      decode_in_range(space, space.encoding->encode(nearest.values), reconstruct(space.pca, coordinates)));
+}
+
+PlantAtPoint plant_moved_to(const SpeciesSpace& space, const ParameterValues& values,
+                            const Eigen::VectorXd& coordinates) {
+  const Eigen::VectorXd move = coordinates - coordinates_of(space, values);
+  const std::string& nearest = space.species[nearest_species(space, coordinates)].name;
+  if (move.isZero(0)) return finish_plant(space, coordinates, nearest, {values, {}});
+  const EncodedValues encoded = space.encoding->encode(values);
+  const Eigen::VectorXd numbers = vector_of(encoded.numbers) + reconstruct(space.pca, move) - space.pca.mean;
+  return finish_plant(space, coordinates, nearest, decode_in_range(space, encoded, numbers));
 }
 
 ReconstructionError reconstruction_error(const SpeciesSpace& space) {

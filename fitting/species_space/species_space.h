@@ -36,6 +36,9 @@ struct SpeciesSpace {
 /// for presets of several models, where all are the same, or components is out of range.
 SpeciesSpace make_species_space(std::span<const Preset> presets, const std::string& encoding, int components);
 
+/// Where a plant lies in the space, or its projection.
+Eigen::VectorXd coordinates_of(const SpeciesSpace& space, const ParameterValues& values);
+
 /// A plant at a point, and what it took to get it.
 struct PlantAtPoint {
   ParameterValues values;             ///< valid
@@ -47,6 +50,11 @@ struct PlantAtPoint {
 /// coordinates: dimension() finite numbers. Numbers are first clamped to the species' own range, a quarter
 /// wider at each end, then to what is valid.
 PlantAtPoint plant_at(const SpeciesSpace& space, const Eigen::VectorXd& coordinates);
+
+/// The plant that lies at `coordinates` while it keeps its residual: what the space leaves out of `values`,
+/// and their choices. At its own coordinates it is `values`, bit for bit.
+PlantAtPoint plant_moved_to(const SpeciesSpace& space, const ParameterValues& values,
+                            const Eigen::VectorXd& coordinates);
 
 /// The differences between a species and its point in the space, in standard deviations: root mean squares.
 struct ReconstructionError {
