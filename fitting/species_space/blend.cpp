@@ -11,12 +11,12 @@ namespace {
 
 double between(double a, double b, double t) { return a == b ? a : (1 - t) * a + t * b; }
 
-/// An effect that the other plant has not, gone where the other plant's takes over.
-double fading(double a, double b, double t, double turn) {
-  return a > 0 ? a * std::max(0.0, 1 - t / turn) : b * std::max(0.0, (t - turn) / (1 - turn));
-}
+constexpr double kTurn = 0.5;  ///< where a choice goes from one plant to the other: to the nearer one
 
-double turn_of(std::size_t, std::size_t) { return 0.5; }
+/// An effect that the other plant has not, gone where the other plant's takes over.
+double fading(double a, double b, double t) {
+  return a > 0 ? a * std::max(0.0, 1 - t / kTurn) : b * std::max(0.0, (t - kTurn) / (1 - kTurn));
+}
 
 /// Both plants with as many levels as the deeper one.
 void deepen(const Model& model, ParameterValues& a, ParameterValues& b) {
@@ -41,7 +41,7 @@ double choose(const Encoding& encoding, const EncodedValues& a, const EncodedVal
   const std::size_t row = encoding.choices()[choice].row;
   if (is_nothing(encoding, a, row)) return b.choices[choice];
   if (is_nothing(encoding, b, row)) return a.choices[choice];
-  return t < turn_of(choice, 0) ? a.choices[choice] : b.choices[choice];
+  return t < kTurn ? a.choices[choice] : b.choices[choice];
 }
 
 double mix(const Encoding& encoding, const EncodedValues& a, const EncodedValues& b, std::size_t column,
@@ -52,7 +52,17 @@ double mix(const Encoding& encoding, const EncodedValues& a, const EncodedValues
   if (!one_sided) return between(from, to, t);
   const std::size_t row = encoding.columns()[column].row;
   const EncodedValues& other = from == 0 ? a : b;
-  return is_nothing(encoding, other, row) ? between(from, to, t) : fading(from, to, t, turn_of(0, 0));
+  return is_nothing(encoding, other, row) ? between(from, to, t) : fading(from, to, t);
+}
+
+/// What is equal in both stays so to the last bit, but for rows that are written together with others.
+void keep_equal(const Encoding& encoding, const ParameterValues& a, const ParameterValues& b,
+                ParameterValues& values) {
+  std::vector<bool> alone(values.size(), false);
+  for (const EncodingColumn& column : encoding.columns()) alone[column.row] = !column.is_share;
+  for (const EncodingChoice& choice : encoding.choices()) alone[choice.row] = true;
+  for (std::size_t row = 0; row < values.size(); ++row)
+    if (alone[row] && a[row] == b[row]) values[row] = a[row];
 }
 
 }  // namespace
@@ -71,8 +81,7 @@ ParameterValues blend(const Model& model, const Encoding& encoding, const Parame
   for (std::size_t choice = 0; choice < mixed.choices.size(); ++choice)
     mixed.choices[choice] = choose(encoding, from, to, choice, t);
   ParameterValues values = encoding.decode(mixed).values;
-  for (std::size_t row = 0; row < values.size(); ++row)
-    if (deep_a[row] == deep_b[row]) values[row] = deep_a[row];
+  keep_equal(encoding, deep_a, deep_b, values);
   const auto relaxed = model.table().find(model.table().relaxed_row);
   if (relaxed && encoding.levels_are_a_choice()) values[*relaxed] = 1;
   return values;

@@ -1,7 +1,7 @@
 // An encoding writes the values of a plant as numbers that can be averaged, and reads them back. `raw` is the
-// parameter list as it is [CH §3.3.1]; `monotone` parts what a flag says from how much of it there is, so that
-// a number in between means something in between (docs/species_space.md). Both are made from the parameter
-// table, whatever the model.
+// parameter list as it is [CH §3.3.1]; `monotone` parts what a flag says from how much of it there is, so
+// that a number in between means something in between (docs/species_space.md). Both are made from the
+// parameter table, whatever the model.
 #pragma once
 #include <memory>
 #include <string>
@@ -13,9 +13,11 @@ namespace espalier {
 
 /// What one number of an encoded plant stands for.
 struct EncodingColumn {
-  std::string name;     ///< "curve[1]", "rotate[1] below 0", "shape conical"
-  std::size_t row = 0;  ///< of the table
-  bool fades = false;   ///< one of two effects that meet at zero: nothing is left of it where the other takes over
+  std::string name;       ///< "curve[1]", "rotate[1] below 0", "shape conical"
+  std::size_t row = 0;    ///< of the table
+  bool is_share = false;  ///< of a choice that can be mixed, which is written over several rows
+  bool fades =
+      false;  ///< one of two effects that meet at zero: nothing is left of it where the other takes over
 };
 
 /// One of a few kinds, which has nothing in between: "leaf_shape", "rotate[1] is below 0".

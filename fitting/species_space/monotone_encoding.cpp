@@ -116,8 +116,8 @@ class TwoMeasuresCodec : public Codec {
   explicit TwoMeasuresCodec(bool meet_at_zero) : meet_at_zero_(meet_at_zero) {}
   void add_fields(const ParameterInfo& row, std::size_t index, std::vector<EncodingColumn>& columns,
                   std::vector<EncodingChoice>& choices) const override {
-    columns.push_back({row.full_name() + " below 0", index, meet_at_zero_});
-    columns.push_back({row.full_name() + " from 0", index, meet_at_zero_});
+    columns.push_back({row.full_name() + " below 0", index, false, meet_at_zero_});
+    columns.push_back({row.full_name() + " from 0", index, false, meet_at_zero_});
     choices.push_back({below_zero(row), index});
   }
   void write(const ParameterInfo&, double value, Fields fields) const override {
@@ -221,7 +221,8 @@ void MonotoneEncoding::add_mixed(std::size_t row) {
   const ParameterInfo& info = table_->rows[row];
   mixed_.push_back({row, table_->index_of(info.mixed_with), table_->index_of(info.mixed_by), columns_.size(),
                     info.choices.size()});
-  for (const std::string& choice : info.choices) columns_.push_back({info.full_name() + " " + choice, row});
+  for (const std::string& choice : info.choices)
+    columns_.push_back({info.full_name() + " " + choice, row, true});
 }
 
 bool MonotoneEncoding::is_mixed(std::size_t row) const {
