@@ -7,6 +7,7 @@
 
 #include "core/parallel_for.h"
 #include "fitting/chart_layout.h"
+#include "fitting/thinning.h"
 #include "image/frame.h"
 #include "render/shaded.h"
 #include "render/silhouette.h"
@@ -24,10 +25,14 @@ ShadedSettings on_white() {
   return settings;
 }
 
-/// Grows the plant; empty where it is beyond the budget.
+/// Grows the plant, thinned where it is beyond the budget; empty where that does not help.
 Plant grown(const Model& model, const ParameterValues& values, const TileView& view) {
   Plant plant;
-  if (!model.generate(values, view.seed, {view.budget, nullptr}, plant).grown) plant.clear();
+  ParameterValues thinned = values;
+  if (model.generate(values, view.seed, {view.budget, nullptr}, plant).grown) return plant;
+  if (!thin_until_grown(model, view.budget, view.seed, thinned) ||
+      !model.generate(thinned, view.seed, {view.budget, nullptr}, plant).grown)
+    plant.clear();
   return plant;
 }
 

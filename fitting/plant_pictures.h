@@ -29,7 +29,7 @@ struct TileView {
 /// it.
 double frame_m(const Plant& plant);
 
-/// Rows of tiles of shaded plants on white. A plant beyond the budget leaves its tile white. The same bits
+/// Rows of tiles of shaded plants on white. A plant beyond the budget is thinned. The same bits
 /// for any number of threads.
 Picture tile_picture(const Model& model, const std::vector<std::vector<PlantTile>>& rows,
                      const TileView& view);

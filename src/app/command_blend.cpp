@@ -110,10 +110,8 @@ void write_point(const BlendOptions& options) {
 
 std::vector<PlantTile> tiles_of(const Pair& pair, const std::string& encoding, int count,
                                 const std::string& title, Seed seed) {
-  std::vector<ParameterValues> strip = blend_strip(pair.model, *make_encoding(encoding, pair.model.table()),
-                                                   pair.a.values, pair.b.values, count - 1);
-  for (std::size_t i = 1; i + 1 < strip.size(); ++i)
-    thin_until_grown(pair.model, TileView{}.budget, seed, strip[i]);
+  const std::vector<ParameterValues> strip = blend_strip(
+      pair.model, *make_encoding(encoding, pair.model.table()), pair.a.values, pair.b.values, count - 1);
   return strip_tiles(pair.model, strip, title, seed);
 }
 

@@ -13,7 +13,8 @@ void add_space_options(CLI::App& command, SpaceOptions& options) {
                              .add_option("--presets", options.presets,
                                          "presets, folders of them, runs or folders of runs: A,B,… (default: "
                                          "the bundled presets)")
-                             ->delimiter(',');
+                             ->delimiter(',')
+                             ->allow_extra_args(false);
   command.add_option("--encoding", options.encoding, "monotone, or raw: the parameter list as it is")
       ->capture_default_str();
   command.add_option("--space", options.file, "a space saved by espalier space --save")->excludes(presets);
