@@ -69,16 +69,18 @@ std::string axis_title(const SpeciesSpace& space, int index) {
   return fmt::format("component {}: {:.1f} % of the variance", index + 1, 100 * space.pca.explained(index));
 }
 
-/// Moves two boxes apart along the axis on which they overlap less. True where they did.
+/// Moves two boxes apart, along the axis on which their points are further apart for boxes of this size. True
+/// where they overlapped.
 bool push_apart(TreeBox& a, TreeBox& b) {
   const float overlap_x = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
   const float overlap_y = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
   if (overlap_x <= 0 || overlap_y <= 0) return false;
-  if (overlap_x < overlap_y) {
-    const float half = (overlap_x + 1) / 2 * (a.x + a.width / 2 <= b.x + b.width / 2 ? 1.0f : -1.0f);
+  const float apart_x = b.point.x_px - a.point.x_px, apart_y = b.point.y_px - a.point.y_px;
+  if (std::fabs(apart_x) * (a.height + b.height) > std::fabs(apart_y) * (a.width + b.width)) {
+    const float half = std::copysign((overlap_x + 1) / 2, apart_x);
     a.x -= half, b.x += half;
   } else {
-    const float half = (overlap_y + 1) / 2 * (a.y + a.height / 2 <= b.y + b.height / 2 ? 1.0f : -1.0f);
+    const float half = std::copysign((overlap_y + 1) / 2, apart_y);
     a.y -= half, b.y += half;
   }
   return true;
@@ -89,11 +91,20 @@ void keep_on_map(TreeBox& box) {
   box.y = std::clamp(box.y, kTopPx, kBottomPx - box.height - 2);
 }
 
+/// Towards its point, by a share of the way.
+void pull_home(TreeBox& box, float share) {
+  box.x += share * (box.point.x_px - box.width / 2 - box.x);
+  box.y += share * (box.point.y_px - box.height / 2 - box.y);
+}
+
+/// Pulls boxes to their points ever more weakly while it pushes them apart, then only pushes.
 void spread(std::vector<TreeBox>& boxes) {
-  constexpr int kRounds = 2000;
+  constexpr int kPulls = 400, kRounds = 3000;
   bool moved = true;
-  for (int round = 0; moved && round < kRounds; ++round) {
+  for (int round = 0; round < kPulls || (moved && round < kRounds); ++round) {
     moved = false;
+    for (TreeBox& box : boxes)
+      pull_home(box, std::max(0.0f, 0.2f * (1 - static_cast<float>(round) / kPulls)));
     for (std::size_t i = 0; i < boxes.size(); ++i)
       for (std::size_t j = i + 1; j < boxes.size(); ++j) moved = push_apart(boxes[i], boxes[j]) || moved;
     for (TreeBox& box : boxes) keep_on_map(box);
