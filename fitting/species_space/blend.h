@@ -1,6 +1,7 @@
-// A point between two plants. Coordinates in the species space and the residual that the plane does not hold are
-// interpolated alike; since the projection is linear, that is interpolating the encoded values themselves, which
-// is what is done here. At t = 0 and t = 1 the plants come back bit for bit (docs/species_space.md).
+// A point between two plants. Coordinates in the species space and the residual that the plane does not hold
+// are interpolated alike; since the projection is linear, that is interpolating the encoded values
+// themselves, which is what is done here. At t = 0 and t = 1 the plants come back bit for bit
+// (docs/species_space.md).
 #pragma once
 #include "fitting/species_space/encoding.h"
 #include "plant/model.h"
