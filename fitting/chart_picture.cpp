@@ -45,6 +45,9 @@ constexpr Glyph kGlyphs[] = {
     {'u', {0x3C, 0x40, 0x40, 0x20, 0x7C}}, {'v', {0x1C, 0x20, 0x40, 0x20, 0x1C}},
     {'w', {0x3C, 0x40, 0x30, 0x40, 0x3C}}, {'x', {0x44, 0x28, 0x10, 0x28, 0x44}},
     {'y', {0x0C, 0x50, 0x50, 0x50, 0x3C}}, {'z', {0x44, 0x64, 0x54, 0x4C, 0x44}},
+    {'[', {0x00, 0x7F, 0x41, 0x41, 0x00}}, {']', {0x00, 0x41, 0x41, 0x7F, 0x00}},
+    {'%', {0x23, 0x13, 0x08, 0x64, 0x62}}, {'_', {0x40, 0x40, 0x40, 0x40, 0x40}},
+    {'=', {0x14, 0x14, 0x14, 0x14, 0x14}}, {':', {0x00, 0x36, 0x36, 0x00, 0x00}},
 };
 // clang-format on
 
@@ -83,8 +86,9 @@ void draw_stroke(Picture& picture, const ChartStroke& stroke) {
     draw_segment(picture, stroke.points[i - 1], stroke.points[i], stroke);
 }
 
-/// Letters without a glyph are left blank.
+/// Capitals are drawn small; letters without a glyph are left blank.
 std::array<std::uint8_t, 5> columns_of(char letter) {
+  if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
   for (const Glyph& glyph : kGlyphs)
     if (glyph.letter == letter) return glyph.columns;
   return {};
@@ -111,14 +115,33 @@ void draw_label(Picture& picture, const ChartLabel& label) {
     }
 }
 
+void draw_image(Picture& picture, const ChartImage& image) {
+  const int left = static_cast<int>(image.upper_left.x_px), top = static_cast<int>(image.upper_left.y_px);
+  for (int y = 0; y < image.picture.height_px; ++y)
+    for (int x = 0; x < image.picture.width_px; ++x) {
+      const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.picture.width_px) +
+                      static_cast<std::size_t>(x);
+      const float cover = image.cover.empty() ? 1 : static_cast<float>(image.cover[at]) / 255;
+      blend(picture, left + x, top + y, image.picture.at(x, y), cover);
+    }
+}
+
 }  // namespace
 
-Picture chart_to_picture(const LineChart& chart) {
-  Picture picture(chart.width_px, chart.height_px, {255, 255, 255});
-  const ChartLayout layout = lay_out(chart);
+float text_width_px(const std::string& text) {
+  return static_cast<float>(kGlyphPx * static_cast<int>(text.size()) - kDotPx);
+}
+
+Picture layout_to_picture(const ChartLayout& layout, int width_px, int height_px) {
+  Picture picture(width_px, height_px, {255, 255, 255});
   for (const ChartStroke& stroke : layout.strokes) draw_stroke(picture, stroke);
+  for (const ChartImage& image : layout.images) draw_image(picture, image);
   for (const ChartLabel& label : layout.labels) draw_label(picture, label);
   return picture;
+}
+
+Picture chart_to_picture(const LineChart& chart) {
+  return layout_to_picture(lay_out(chart), chart.width_px, chart.height_px);
 }
 
 }  // namespace espalier

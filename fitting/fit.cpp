@@ -10,6 +10,7 @@
 #include "fitting/fit_objective.h"
 #include "fitting/plant_scorer.h"
 #include "fitting/record_task.h"
+#include "fitting/space_search.h"
 #include "fitting/start_points.h"
 #include "models/models.h"
 
@@ -49,13 +50,26 @@ struct NoScorer : Scorer {
   }
 };
 
-/// Lets the optimiser check space and settings before anything is written: it stops before it begins.
-void check_optimizer(const FitRecord& record, const SearchSpace& space) {
-  NoScorer no_scorer;
+/// Lets the optimiser check objective and settings before anything is written: it stops before it begins.
+void check_optimizer(const FitRecord& record, const Objective& objective) {
   StopAtOnce stop;
   optimizer_by_name(record.optimizer)
-      .minimize(FitObjective(space, no_scorer), record.optimizer_settings, {kUnlimited}, {}, record.seed,
-                stop);
+      .minimize(objective, record.optimizer_settings, {kUnlimited}, {}, record.seed, stop);
+}
+
+/// The same for each of the searches the run will make.
+void check_searches(const FitRecord& record, const SearchSpace& space,
+                    const std::optional<SpeciesSpace>& species) {
+  NoScorer no_scorer;
+  check_optimizer(record, FitObjective(space, no_scorer));
+  if (species) check_optimizer(record, SpaceObjective(*species, {}, {}, no_scorer));
+}
+
+/// The species space the run searches first, if it does.
+std::optional<SpeciesSpace> space_of(const FitRecord& record, const Model& model) {
+  const int components = parse_search_space(record.space);
+  if (components == 0) return std::nullopt;
+  return bundled_species_space(model, components);
 }
 
 /// One run: its state, its clock, and when it stops.
@@ -74,7 +88,7 @@ class FitRun : public Observer {
             [this](const ScoredBatch& batch) { on_scored(batch); }),
         renderer_(task.make_renderer()) {}
 
-  FitResult run(const std::vector<StartPoint>& starts);
+  FitResult run(std::vector<StartPoint> starts, const std::optional<SpeciesSpace>& species);
   bool stop_requested() override;
 
  private:
@@ -82,6 +96,9 @@ class FitRun : public Observer {
   void on_scored(const ScoredBatch& batch);
   void refresh_directory();
   std::vector<double> score_starts(const std::vector<StartPoint>& starts);
+  void search_species(const SpeciesSpace& species, std::vector<StartPoint>& starts,
+                      std::vector<double>& scores);
+  MinimizeResult minimize(const Objective& objective, long evaluations, std::span<const double> points);
   void search(const std::vector<StartPoint>& starts, const std::vector<double>& scores);
   void report_progress() const;
   FitResult finish();
@@ -96,6 +113,7 @@ class FitRun : public Observer {
   LoggedScorer scorer_;
   std::unique_ptr<SilhouetteRenderer> renderer_;
   std::size_t dimension_ = 0;
+  std::string stage_ = "starts";
   double seconds_before_ = 0;  ///< of the run up to live_since_
   Clock::time_point live_since_ = Clock::now();
   double refreshed_at_ = 0, refresh_cost_ = 0;
@@ -124,7 +142,7 @@ void FitRun::on_scored(const ScoredBatch& batch) {
   }
   if (batch.improved)
     state_.best_metrics = mean_metrics(task_, draw_candidate(task_, scorer_.best().values, *renderer_));
-  state_.trace.add(batch, scorer_.best().score, state_.best_metrics);
+  state_.trace.add(batch, scorer_.best().score, state_.best_metrics, stage_);
   if (batch.replayed) return;
   if (seconds() - refreshed_at_ > std::max(kRefreshSeconds, refresh_cost_ / kRefreshShare))
     refresh_directory();
@@ -167,6 +185,35 @@ std::vector<double> FitRun::score_starts(const std::vector<StartPoint>& starts) 
   return scores;
 }
 
+MinimizeResult FitRun::minimize(const Objective& objective, long evaluations,
+                                std::span<const double> points) {
+  return optimizer_by_name(record_.optimizer)
+      .minimize(objective, record_.optimizer_settings, {evaluations}, points, record_.seed, *this);
+}
+
+/// Searches the coordinates from those of the best start, with its leaves or without; what it finds joins the
+/// starts.
+void FitRun::search_species(const SpeciesSpace& species, std::vector<StartPoint>& starts,
+                            std::vector<double>& scores) {
+  if (stop_requested()) return;
+  stage_ = "species_space";
+  const Model& model = *task_.model;
+  const auto best = static_cast<std::size_t>(std::min_element(scores.begin(), scores.end()) - scores.begin());
+  const ParameterValues start = starts[best].values;
+  const auto prepare = [&](ParameterValues& values) {
+    prepare_start(model, record_.growth, target_height_m(record_), task_.plant_seeds.front(), values);
+    if (!has_leaves(model.table(), start)) take_leaves(model.table(), values);
+    apply_fixed(model.table(), record_.search, values);
+  };
+  const SpaceObjective objective(species, start, prepare, scorer_);
+  const std::vector<double> begin = objective.box().unit(coordinates_of(species, start));
+  const MinimizeResult found = minimize(objective, record_.space_evaluations, begin);
+  if (found.best_point.empty()) return;
+  starts.push_back({"species space", objective.candidate(found.best_point)});
+  scores.push_back(found.best_value);
+  state_.starts.push_back({"species space", 1 - found.best_value});
+}
+
 void FitRun::search(const std::vector<StartPoint>& starts, const std::vector<double>& scores) {
   std::vector<std::size_t> order(starts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -181,9 +228,8 @@ void FitRun::search(const std::vector<StartPoint>& starts, const std::vector<dou
     const std::vector<double> point = space.encode(starts[order[i]].values);
     points.insert(points.end(), point.begin(), point.end());
   }
-  const FitObjective objective(space, scorer_);
-  optimizer_by_name(record_.optimizer)
-      .minimize(objective, record_.optimizer_settings, {kUnlimited}, points, record_.seed, *this);
+  stage_ = "search";
+  minimize(FitObjective(space, scorer_), kUnlimited, points);
   if (!stop_requested()) state_.stopped_by = "converged";
 }
 
@@ -202,8 +248,9 @@ FitResult FitRun::finish() {
           .dimension = dimension_};
 }
 
-FitResult FitRun::run(const std::vector<StartPoint>& starts) {
-  const std::vector<double> scores = score_starts(starts);
+FitResult FitRun::run(std::vector<StartPoint> starts, const std::optional<SpeciesSpace>& species) {
+  std::vector<double> scores = score_starts(starts);
+  if (species) search_species(*species, starts, scores);
   search(starts, scores);
   return finish();
 }
@@ -216,12 +263,13 @@ FitResult fit(const FitRecord& given, const fs::path& directory, const FitOption
   FitRecord record = given;
   const FitTask task = task_of(record, options);
   const ParameterTable& table = task.model->table();
-  check_optimizer(record, make_search_space(table, table.defaults(), record.search));
+  const std::optional<SpeciesSpace> species = space_of(record, *task.model);
+  check_searches(record, make_search_space(table, table.defaults(), record.search), species);
   const std::vector<StartPoint> starts =
       make_start_points(*task.model, record.start, record.search, record.growth, target_height_m(record),
                         task.plant_seeds.front());
   begin_run_directory(directory, {.record = record, .task = task});
-  return FitRun(record, task, directory, options).run(starts);
+  return FitRun(record, task, directory, options).run(starts, species);
 }
 
 }  // namespace espalier

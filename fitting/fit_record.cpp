@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/toml_section.h"
 #include "fitting/optimizers/search_method.h"
+#include "fitting/space_search.h"
 #include "image/compare.h"
 #include "models/models.h"
 
@@ -60,6 +61,8 @@ void read_budget(const TomlSection& section, FitRecord& record) {
 
 void read_search(const TomlSection& section, FitRecord& record) {
   record.start = section.text("start");
+  record.space = section.text_or("space", record.space);  // records of earlier versions have none
+  record.space_evaluations = section.whole_or("space_evaluations", record.space_evaluations);
   record.search.free = section.texts("free");
   record.search.fixed = section.section("fixed").numbers();
 }
@@ -116,12 +119,18 @@ std::string budget_to_toml(const FitRecord& record) {
       toml_number(record.growth.max_leaves));
 }
 
+std::string space_to_toml(const FitRecord& record) {
+  if (record.space.empty()) return "";
+  return fmt::format("space = {}  # searched first\nspace_evaluations = {}\n", quote_toml(record.space),
+                     record.space_evaluations);
+}
+
 std::string search_to_toml(const FitRecord& record) {
   std::string free;
   for (const std::string& name : record.search.free) free += (free.empty() ? "" : ", ") + quote_toml(name);
   return fmt::format(
-      "\n[search]\nstart = {}\nfree = [{}]  # none: the default set of the model\n\n[search.fixed]\n{}",
-      quote_toml(record.start), free, numbers_to_toml(record.search.fixed));
+      "\n[search]\nstart = {}\n{}free = [{}]  # none: the default set of the model\n\n[search.fixed]\n{}",
+      quote_toml(record.start), space_to_toml(record), free, numbers_to_toml(record.search.fixed));
 }
 
 std::string versions_to_toml(const FitRecord& record) {
@@ -147,6 +156,9 @@ void check_record(const FitRecord& record) {
   complete_settings(record.optimizer, optimizer_by_name(record.optimizer).settings(),
                     record.optimizer_settings);
   parse_objective(record.objective);
+  parse_search_space(record.space);
+  check_number("--space-evaluations", static_cast<double>(record.space_evaluations), 1, 1e9,
+               "a whole number from 1");
   const FitBudget& budget = record.budget;
   check_number("--evaluations", static_cast<double>(budget.evaluations), 0, 1e15, "a whole number from 1");
   check_number("--seconds", budget.seconds, 0, 1e9, "a positive number of seconds");

@@ -41,6 +41,8 @@ struct FitRecord {
   GrowthBudget growth{1'500, 6'000};
   Seed seed = 1;
   std::string start = "auto";
+  std::string space;  ///< "species:2": search two coordinates of the species space first; empty: do not
+  long space_evaluations = 300;  ///< most of that first search
   SearchChoice search;
   std::optional<double> height_m;
   std::map<std::string, std::string> versions;  ///< of the program and its libraries

@@ -19,10 +19,13 @@ struct StartPoint {
 /// Multiplies all values in metres by `factor` (clamped to what is valid): a similar plant.
 void scale_plant(const ParameterTable& table, double factor, ParameterValues& values);
 
-/// Scales leaves and branches of the deepest level down until the estimate fits the budget; what is left of
-/// the leaves grows so that it covers as much. A plant that does not get there in a few steps is left as thin
-/// as it got; its score says so.
-void thin_to_budget(const Model& model, const GrowthBudget& budget, ParameterValues& values);
+/// Makes a candidate of any plant: its size does not vary, counts may be relaxed, it is thinned until this
+/// seed's tree grows within the budget, and that tree is `height_m` tall.
+void prepare_start(const Model& model, const GrowthBudget& budget, double height_m, Seed plant_seed,
+                   ParameterValues& values);
+
+bool has_leaves(const ParameterTable& table, const ParameterValues& values);
+void take_leaves(const ParameterTable& table, ParameterValues& values);
 
 /// The start points of `start`: "auto" (each bundled preset of the model), "defaults" (those of the
 /// table), or names and paths of presets with commas between. Each preset also without its leaves, if it

@@ -18,7 +18,8 @@ double median_of(std::vector<double> values) {
 
 }  // namespace
 
-void Trace::add(const ScoredBatch& batch, double best_score, const MaskMetrics& best_metrics) {
+void Trace::add(const ScoredBatch& batch, double best_score, const MaskMetrics& best_metrics,
+                const std::string& stage) {
   pending_scores_.insert(pending_scores_.end(), batch.scores.begin(), batch.scores.end());
   const bool whole_row =
       batch.improved || batch.scores.size() > 1 || pending_scores_.size() >= kRowEvaluations;
@@ -31,20 +32,21 @@ void Trace::add(const ScoredBatch& batch, double best_score, const MaskMetrics& 
                    .batch_best = 1 - *least,
                    .batch_median = 1 - median_of(pending_scores_),
                    .batch_worst = 1 - *most,
-                   .metrics = best_metrics});
+                   .metrics = best_metrics,
+                   .stage = stage});
   pending_scores_.clear();
 }
 
 std::string trace_to_csv(const std::vector<TraceRow>& rows) {
   std::string csv =
       "evaluations,seconds,event,best,batch_best,batch_median,batch_worst,"
-      "pixel_accuracy,iou,dice,tolerant_iou,outline_iou,truncated_distance\n";
+      "pixel_accuracy,iou,dice,tolerant_iou,outline_iou,truncated_distance,stage\n";
   for (const TraceRow& row : rows)
-    csv += fmt::format("{},{:.3f},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n",
-                       row.evaluations, row.seconds, row.improved ? "improvement" : "batch", row.best,
-                       row.batch_best, row.batch_median, row.batch_worst, row.metrics.pixel_accuracy,
-                       row.metrics.iou, row.metrics.dice, row.metrics.tolerant_iou, row.metrics.outline_iou,
-                       row.metrics.truncated_distance);
+    csv += fmt::format(
+        "{},{:.3f},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{}\n",
+        row.evaluations, row.seconds, row.improved ? "improvement" : "batch", row.best, row.batch_best,
+        row.batch_median, row.batch_worst, row.metrics.pixel_accuracy, row.metrics.iou, row.metrics.dice,
+        row.metrics.tolerant_iou, row.metrics.outline_iou, row.metrics.truncated_distance, row.stage);
   return csv;
 }
 

@@ -20,12 +20,14 @@ struct TraceRow {
   double best = 0;                                           ///< fitness of the run so far
   double batch_best = 0, batch_median = 0, batch_worst = 0;  ///< fitness since the row before
   MaskMetrics metrics;                                       ///< of the best so far
+  std::string stage;                                         ///< "starts", "species_space" or "search"
 };
 
 class Trace {
  public:
-  /// best_metrics: of the best candidate after this batch, whose score is `best_score`.
-  void add(const ScoredBatch& batch, double best_score, const MaskMetrics& best_metrics);
+  /// best_metrics: of the best candidate after this batch, whose score is `best_score`. stage: of the run.
+  void add(const ScoredBatch& batch, double best_score, const MaskMetrics& best_metrics,
+           const std::string& stage = "search");
   const std::vector<TraceRow>& rows() const { return rows_; }
 
  private:

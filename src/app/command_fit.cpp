@@ -192,6 +192,12 @@ void add_search_options(CLI::App& command, FitArguments& arguments) {
       ->capture_default_str();
   command.add_option("--start", record.start, "auto (all presets), defaults, or presets: NAME,NAME")
       ->capture_default_str();
+  command.add_option("--space", record.space,
+                     "species:K: search K coordinates of the species space first, then the parameters");
+  command
+      .add_option("--space-evaluations", record.space_evaluations,
+                  "evaluations in the species space, at most")
+      ->capture_default_str();
   command.add_option("--free", arguments.free, "parameters to search: a,b[1],curve*,default")->delimiter(',');
   command.add_option("--fix", arguments.fixed, "hold a parameter: name=value");
   command.add_option("--max-stems", record.growth.max_stems, "stems a candidate may have")
@@ -214,9 +220,10 @@ void add_run_options(CLI::App& command, FitArguments& arguments) {
   CLI::Option* resume =
       command.add_option("--resume", arguments.resume, "go on with the run in this directory");
   CLI::Option* repeat = command.add_option("--repeat", arguments.repeat, "repeat the run in this directory");
-  for (const char* other : {"image", "--views", "--out", "--seed", "--size", "--height", "--separation",
-                            "--tree-side", "--optimizer", "--set-optimizer", "--objective", "--fit-seeds",
-                            "--start", "--free", "--fix", "--max-stems", "--max-leaves"}) {
+  for (const char* other :
+       {"image", "--views", "--out", "--seed", "--size", "--height", "--separation", "--tree-side",
+        "--optimizer", "--set-optimizer", "--objective", "--fit-seeds", "--start", "--space",
+        "--space-evaluations", "--free", "--fix", "--max-stems", "--max-leaves"}) {
     resume->excludes(command.get_option(other));
     if (std::string(other) != "--out") repeat->excludes(command.get_option(other));
   }

@@ -16,6 +16,20 @@ enum class Scale { linear, logarithmic, integer, choice };
 /// What a negative value means where the sign is a flag and not a magnitude.
 enum class SignMeaning { number, flag };
 
+/// How the magnitudes on the two sides of a flag compare, for whoever blends two plants.
+enum class FlagSides {
+  one_measure,   ///< the same measure of two kinds: a count of children, or of children in a fan
+  meet_at_zero,  ///< two effects; at zero neither is there
+  unrelated      ///< two measures that have nothing in common
+};
+
+/// Values that mean something else from one range to the next, though they run on.
+enum class Regimes {
+  none,
+  taper  ///< under 1 the share by which a stem narrows; to 2 it narrows less, with a round end; then
+         ///< swellings
+};
+
 struct ParameterInfo {
   std::string name;                           ///< without the level: "curve_v"
   int level = -1;                             ///< level of branching 0..3, or -1 for the whole plant
@@ -29,8 +43,15 @@ struct ParameterInfo {
   bool relaxable = false;        ///< an integer that may be fractional: the last child grows in proportion
   std::vector<std::string> choices;  ///< names of choices; the value of choice i is first_choice + i
   int first_choice = 0;
-  std::string symbol;  ///< the paper's name, where it has another one
-  std::string help;    ///< one line
+  FlagSides sides = FlagSides::unrelated;  ///< where the sign is a flag
+  Regimes regimes = Regimes::none;
+  int least_levels = 0;  ///< means nothing to a plant with fewer levels of branching than these
+  std::vector<std::string> needs =
+      {};  ///< means nothing where all these rows (full names) are 0; none: always means
+  std::string mixed_with = {},
+              mixed_by = {};  ///< of a choice: rows of a second choice, and of the share that one has
+  std::string symbol;         ///< the paper's name, where it has another one
+  std::string help;           ///< one line
 
   /// "curve_v[2]", or "g_scale" where there is no level.
   std::string full_name() const;
@@ -42,6 +63,8 @@ using ParameterValues = std::vector<double>;
 struct ParameterTable {
   std::string model;  ///< "weber_penn"
   std::vector<ParameterInfo> rows;
+  std::string levels_row = {};   ///< how many levels of branching a plant has; empty where a model has none
+  std::string relaxed_row = {};  ///< the switch that lets relaxable counts be fractions; empty: none
 
   std::optional<std::size_t> find(std::string_view full_name) const;
   /// The row index; throws InputError naming the closest known parameter where there is none.

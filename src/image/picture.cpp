@@ -22,6 +22,7 @@ std::string encode_png(const std::filesystem::path& path, int width_px, int heig
   const auto output = OIIO::ImageOutput::create("png");
   OIIO::ImageSpec spec(width_px, height_px, channels, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("oiio:UnassociatedAlpha", 1);
   if (!output || !output->set_ioproxy(&memory) || !output->open(path.filename().string(), spec) ||
       !output->write_image(OIIO::TypeDesc::UINT8, samples) || !output->close())
     throw InternalError("PNG encoding failed: " + (output ? output->geterror() : OIIO::geterror()));
@@ -29,6 +30,17 @@ std::string encode_png(const std::filesystem::path& path, int width_px, int heig
 }
 
 }  // namespace
+
+std::string png_bytes(const Picture& picture, const std::vector<std::uint8_t>& cover) {
+  const bool covered = !cover.empty();
+  std::vector<std::uint8_t> samples;
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    const Rgb& pixel = picture.pixels[i];
+    samples.insert(samples.end(), {pixel.r, pixel.g, pixel.b});
+    if (covered) samples.push_back(cover[i]);
+  }
+  return encode_png("picture.png", picture.width_px, picture.height_px, covered ? 4 : 3, samples.data());
+}
 
 void write_png(const std::filesystem::path& path, const Picture& picture) {
   static_assert(sizeof(Rgb) == 3);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "image/mask.h"
@@ -28,6 +29,9 @@ struct Picture {
 /// Writes a PNG through a temporary file and a rename. Throws InputError (one line) where the path
 /// cannot be written or the disk is full; an existing file is then untouched.
 void write_png(const std::filesystem::path& path, const Picture& picture);
+
+/// The bytes of a PNG. cover: 0 … 255 a pixel, its opacity; empty: no such channel.
+std::string png_bytes(const Picture& picture, const std::vector<std::uint8_t>& cover = {});
 
 /// One-channel PNG: tree 255, background 0.
 void write_mask_png(const std::filesystem::path& path, const Mask& mask);

@@ -37,6 +37,13 @@ class Model {
  public:
   virtual ~Model() = default;
   virtual const ParameterTable& table() const = 0;
+  /// Values that grow nearly the same silhouettes with `levels` levels of branching, which are at least as
+  /// many as `values` have: what two plants of different depth are blended by. A model without levels has
+  /// none to add.
+  virtual ParameterValues deepened(std::span<const double> values, int levels) const {
+    (void)levels;
+    return {values.begin(), values.end()};
+  }
   virtual GrowthEstimate estimate(std::span<const double> values) const = 0;
   /// Grows into `plant`, whose memory is reused. `values` follow table(); they must be valid.
   virtual GrowthResult generate(std::span<const double> values, Seed seed, const GrowthSettings& settings,

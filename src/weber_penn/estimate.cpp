@@ -59,8 +59,7 @@ double mean_child_share(const WeberPennParameters& p, int level) {
   if (level > 1) return 0.75;
   double sum = 0;
   constexpr int kSamples = 8;
-  for (int sample = 0; sample < kSamples; ++sample)
-    sum += shape_ratio(static_cast<int>(p.shape), (sample + 0.5f) / kSamples, p);
+  for (int sample = 0; sample < kSamples; ++sample) sum += crown_shape_ratio((sample + 0.5f) / kSamples, p);
   return 0.2 + 0.8 * sum / kSamples;
 }
 

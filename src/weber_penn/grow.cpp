@@ -163,7 +163,7 @@ float Growth::child_length_m(const GrowingStem& parent, const ChildSite& site) c
   const float longest_m = parent.length_m * parent.child_max;
   if (parent.level > 0) return parent.child_max * (parent.length_m - 0.7f * site.offset_m);
   const float ratio = (parent.length_m - site.offset_m) / (parent.length_m - parent.tree.base_length_m);
-  return longest_m * shape_ratio(static_cast<int>(p_.shape), std::clamp(ratio, 0.f, 1.f), p_);
+  return longest_m * crown_shape_ratio(std::clamp(ratio, 0.f, 1.f), p_);
 }
 
 float Growth::child_radius_m(const GrowingStem& parent, const ChildSite& site, float length_m) const {

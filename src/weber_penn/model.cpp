@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "weber_penn/deepen.h"
 #include "weber_penn/estimate.h"
 #include "weber_penn/grow.h"
 #include "weber_penn/parameters.h"
@@ -14,6 +15,10 @@ namespace {
 class WeberPennModel : public Model {
  public:
   const ParameterTable& table() const override { return weber_penn_table(); }
+
+  ParameterValues deepened(std::span<const double> values, int levels) const override {
+    return deepened_values(values, levels);
+  }
 
   GrowthEstimate estimate(std::span<const double> values) const override {
     return estimate_growth(weber_penn_parameters(values));

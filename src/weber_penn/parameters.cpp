@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -42,6 +43,8 @@ constexpr SignMeaning kNumber = SignMeaning::number, kFlag = SignMeaning::flag;
 // clang-format off
 const Definition kDefinitions[] = {
   {&P::shape, "shape", "1", {0, 8}, {0, 8}, kChoice, kNumber, "", "Shape", "crown shape: how the length of first-level branches changes with height"},
+  {&P::shape_2, "shape_2", "1", {0, 8}, {0, 8}, kChoice, kNumber, "", "", "a second crown shape, mixed in by shape_mix"},
+  {&P::shape_mix, "shape_mix", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "", "share of shape_2 in the crown's shape: 0 is shape alone"},
   {&P::g_scale, "g_scale", "m", {0.01, 500}, {2, 40}, kLog, kNumber, "*", "Scale", "scale of the whole tree; with length[0] = 1 its height"},
   {&P::g_scale_v, "g_scale_v", "m", {0, 500}, {0, 10}, kReal, kNumber, "", "ScaleV", "largest variation of g_scale"},
   {&P::levels, "levels", "1", {1, 4}, {1, 4}, kWhole, kNumber, "", "Levels", "levels of branching, the trunk included; leaves grow on the last"},
@@ -95,11 +98,12 @@ struct ChoiceNames {
 };
 
 const std::vector<ChoiceNames>& choice_names() {
+  static const std::vector<std::string> kCrownShapes = {
+      "conical", "spherical",       "hemispherical", "cylindrical", "tapered_cylindrical",
+      "flame",   "inverse_conical", "tend_flame",    "envelope"};
   static const std::vector<ChoiceNames> kNames = {
-      {"shape",
-       0,
-       {"conical", "spherical", "hemispherical", "cylindrical", "tapered_cylindrical", "flame",
-        "inverse_conical", "tend_flame", "envelope"}},
+      {"shape", 0, kCrownShapes},
+      {"shape_2", 0, kCrownShapes},
       {"leaf_shape",
        0,
        {"default", "ovate", "linear", "cordate", "maple", "palmate", "spiky_oak", "rounded_oak", "elliptic",
@@ -108,6 +112,52 @@ const std::vector<ChoiceNames>& choice_names() {
       {"relaxed_counts", 0, {"off", "on"}},
   };
   return kNames;
+}
+
+/// What a row's values need in order to mean anything: rows, of which one is not 0. "[n]" is the row's level.
+struct Need {
+  const char* name;
+  std::vector<const char*> rows;
+};
+
+const std::vector<Need>& needs() {
+  static const std::vector<Need> kNeeds = {{"shape_2", {"shape_mix"}},
+                                           {"split_angle", {"seg_splits[n]", "base_splits"}},
+                                           {"split_angle_v", {"seg_splits[n]", "base_splits"}},
+                                           {"leaf_shape", {"leaf_blos_num"}},
+                                           {"leaf_scale", {"leaf_blos_num"}},
+                                           {"leaf_scale_x", {"leaf_blos_num"}},
+                                           {"leaf_bend", {"leaf_blos_num"}},
+                                           {"blossom_shape", {"blossom_rate"}},
+                                           {"blossom_scale", {"blossom_rate"}},
+                                           {"prune_width", {"prune_ratio"}}};
+  return kNeeds;
+}
+
+/// Splits at the base are the trunk's alone.
+std::vector<std::string> needs_of(const ParameterInfo& row) {
+  std::vector<std::string> names;
+  for (const Need& need : needs())
+    if (row.name == need.name)
+      for (std::string name : need.rows)
+        if (name != "base_splits" || row.level == 0) {
+          if (name.ends_with("[n]")) name.replace(name.size() - 2, 1, std::to_string(row.level));
+          names.push_back(std::move(name));
+        }
+  return names;
+}
+
+/// Children are placed by the values of their own level, and leaves by those of the level below the last.
+int least_levels_of(const ParameterInfo& row) {
+  static const std::vector<std::string> kPlacing = {"down_angle", "down_angle_v", "rotate", "rotate_v",
+                                                    "branch_dist"};
+  if (row.level < 0) return 0;
+  return std::find(kPlacing.begin(), kPlacing.end(), row.name) == kPlacing.end() ? row.level + 1 : row.level;
+}
+
+FlagSides sides_of(const std::string& name) {
+  if (name == "branches" || name == "leaf_blos_num" || name == "base_splits") return FlagSides::one_measure;
+  return name == "rotate" ? FlagSides::unrelated : FlagSides::meet_at_zero;
 }
 
 bool is_free(const Definition& definition, int level) {
@@ -136,13 +186,18 @@ ParameterInfo make_row(const Definition& definition, int level, float default_va
   for (const ChoiceNames& choice : choice_names())
     if (row.name == choice.name) row.choices = choice.names, row.first_choice = choice.first;
   if (row.name == "branches" && level == 0) row.lower = 1, row.sign = SignMeaning::number;
+  row.sides = sides_of(row.name);
+  if (row.name == "taper") row.regimes = Regimes::taper;
+  if (row.name == "shape") row.mixed_with = "shape_2", row.mixed_by = "shape_mix";
+  row.least_levels = least_levels_of(row);
+  row.needs = needs_of(row);
   row.relaxable = (row.name == "branches" && level > 0) || row.name == "leaf_blos_num";
   return row;
 }
 
 ParameterTable make_table() {
   const WeberPennParameters defaults;
-  ParameterTable table{"weber_penn", {}};
+  ParameterTable table{"weber_penn", {}, "levels", "relaxed_counts"};
   for (const Definition& definition : kDefinitions) {
     if (const auto* whole = std::get_if<PlantMember>(&definition.member))
       table.rows.push_back(make_row(definition, -1, defaults.*(*whole)));

@@ -13,7 +13,7 @@ namespace espalier {
 using LevelValues = std::array<float, 4>;
 
 struct WeberPennParameters {
-  float shape = 7;
+  float shape = 7, shape_2 = 7, shape_mix = 0;
   float g_scale = 13, g_scale_v = 3;
   float levels = 3;
   float ratio = 0.015f, ratio_power = 1.2f;

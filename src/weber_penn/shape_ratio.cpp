@@ -46,6 +46,13 @@ float shape_ratio(int shape, float ratio, const WeberPennParameters& parameters)
   return shape < 8 ? kShapes[shape](ratio) : envelope_ratio(ratio, parameters);
 }
 
+float crown_shape_ratio(float ratio, const WeberPennParameters& parameters) {
+  const float first = shape_ratio(static_cast<int>(parameters.shape), ratio, parameters);
+  if (parameters.shape_mix == 0) return first;
+  const float second = shape_ratio(static_cast<int>(parameters.shape_2), ratio, parameters);
+  return first + parameters.shape_mix * (second - first);
+}
+
 bool inside_envelope(Vec3 point_m, float tree_scale_m, const WeberPennParameters& parameters) {
   const float distance = std::hypot(point_m.x, point_m.y);
   const float ratio = crown_ratio(point_m.z, tree_scale_m, parameters);

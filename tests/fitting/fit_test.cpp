@@ -154,6 +154,57 @@ TEST(Fit, ARunThatWasStoppedRepeatsByItsCountWithEveryOptimizer) {
   }
 }
 
+/// A palm that searches two coordinates for 30 evaluations, after its two starts.
+FitRecord space_record(long evaluations) {
+  FitRecord record = small_record(evaluations);
+  record.space = "species:2";
+  record.space_evaluations = 30;
+  return record;
+}
+
+TEST(Fit, SearchesTheSpeciesSpaceBetweenStartsAndParameters) {
+  const fs::path run = new_run("space");
+  const FitResult result = fit(space_record(80), run);
+  EXPECT_EQ(result.evaluations, 80);
+  const std::string trace = read_text_file(run / "trace.csv");
+  EXPECT_THAT(trace, HasSubstr(",stage\n"));
+  const auto first = trace.find(",starts\n"), then = trace.find(",species_space\n"),
+             last = trace.find(",search\n");
+  ASSERT_NE(last, trace.npos);
+  EXPECT_LT(first, then);
+  EXPECT_LT(then, last);
+  const auto summary = nlohmann::json::parse(read_text_file(run / "summary.json"));
+  EXPECT_EQ(summary["starts"].back()["name"], "species space");
+  EXPECT_GE(summary["starts"].back()["fitness"], summary["starts"][0]["fitness"]) << "it begins there";
+}
+
+TEST(Fit, OfASpeciesSpaceResumesFromAnyStageToTheUnbrokenRun) {
+  const fs::path unbroken = new_run("space_unbroken");
+  fit(space_record(80), unbroken);
+  EXPECT_EQ(read_record(unbroken / "run.toml").record.space, "species:2");
+  for (const std::uintmax_t evaluations : {1u, 2u, 17u, 31u, 32u, 33u, 60u}) {
+    const fs::path broken = fresh_folder("space_broken");
+    fs::copy(unbroken, broken);
+    fs::resize_file(broken / "evaluations.bin", 8 + 16 * evaluations);
+    FitOptions options;
+    options.resume = true;
+    options.threads = 1;
+    fit(read_record(broken / "run.toml").record, broken, options);
+    SCOPED_TRACE(evaluations);
+    expect_same_run(broken, unbroken);
+  }
+}
+
+TEST(Fit, RefusesASpeciesSpaceThatIsNone) {
+  FitRecord record = small_record(10);
+  for (const char* space : {"species", "species:", "species:0", "species:2x", "plane:2"}) {
+    record.space = space;
+    EXPECT_THAT(error_of_fit(record, new_run("no_space")), HasSubstr("--space: got")) << space;
+  }
+  record.space = "species:99";
+  EXPECT_THAT(error_of_fit(record, new_run("no_space")), HasSubstr("expected 1 … 18"));
+}
+
 TEST(Fit, StopsAtTheTargetFitness) {
   FitRecord record = small_record(500);
   record.budget.target_fitness = 0.05;

@@ -3,7 +3,6 @@
 Thick: the best so far; thin: the best of each generation, which may fall where nothing is kept of the last one."""
 
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 import style
 from read import column, grouped, number, read_table

@@ -1,0 +1,76 @@
+#include "fitting/space_search.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/error.h"
+#include "core/parallel_for.h"
+
+namespace espalier {
+
+namespace {
+
+constexpr double kMargin = 0.15;  ///< beyond the species, as a share of their range
+
+}  // namespace
+
+int parse_search_space(const std::string& text) {
+  constexpr std::string_view kKind = "species:";
+  if (text.empty()) return 0;
+  int components = 0;
+  const std::string_view number = text.starts_with(kKind) ? std::string_view(text).substr(kKind.size()) : "";
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), components);
+  if (error != std::errc() || end != number.data() + number.size() || components < 1)
+    throw_input_error("--space: got '{}', expected species:K with a number of components from 1", text);
+  return components;
+}
+
+SpeciesSpace bundled_species_space(const Model& model, int components) {
+  std::vector<Preset> presets;
+  for (const std::string& name : bundled_presets()) {
+    Preset preset = load_preset(name);
+    if (preset.model == model.table().model) presets.push_back(std::move(preset));
+  }
+  if (presets.size() < 2)
+    throw_input_error("--space: got {} bundled presets of {}, expected at least 2", presets.size(),
+                      model.table().model);
+  return make_species_space(presets, "monotone", components);
+}
+
+SpeciesBox::SpeciesBox(const SpeciesSpace& space)
+    : lower_(space.species[0].coordinates), upper_(space.species[0].coordinates) {
+  for (const SpeciesPoint& species : space.species) {
+    lower_ = lower_.cwiseMin(species.coordinates);
+    upper_ = upper_.cwiseMax(species.coordinates);
+  }
+  const Eigen::VectorXd margin = kMargin * (upper_ - lower_);
+  lower_ -= margin, upper_ += margin;
+}
+
+Eigen::VectorXd SpeciesBox::coordinates(std::span<const double> unit) const {
+  ESPALIER_CHECK_EQ(unit.size(), dimension());
+  const Eigen::Map<const Eigen::VectorXd> share(unit.data(), lower_.size());
+  return lower_ + share.cwiseMax(0).cwiseMin(1).cwiseProduct(upper_ - lower_);
+}
+
+std::vector<double> SpeciesBox::unit(const Eigen::VectorXd& coordinates) const {
+  const Eigen::VectorXd share = (coordinates - lower_).cwiseQuotient(upper_ - lower_).cwiseMax(0).cwiseMin(1);
+  return {share.begin(), share.end()};
+}
+
+ParameterValues SpaceObjective::candidate(std::span<const double> unit) const {
+  ParameterValues values = plant_moved_to(space_, start_, box_.coordinates(unit)).values;
+  prepare_(values);
+  return values;
+}
+
+void SpaceObjective::evaluate(std::span<const double> points, std::span<double> values) const {
+  ESPALIER_CHECK_EQ(points.size(), values.size() * dimension());
+  std::vector<ParameterValues> candidates(values.size());
+  parallel_for(candidates.size(), [&](std::size_t i) {
+    candidates[i] = candidate(points.subspan(i * dimension(), dimension()));
+  });
+  scorer_.score(candidates, values);
+}
+
+}  // namespace espalier

@@ -1,0 +1,25 @@
+#include "fitting/species_space/encoding.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace espalier {
+
+std::unique_ptr<Encoding> make_encoding(const std::string& name, const ParameterTable& table) {
+  if (name == "raw") return make_raw_encoding(table);
+  if (name == "monotone") return make_monotone_encoding(table);
+  throw_input_error("encoding: got '{}', expected raw or monotone", name);
+}
+
+double valid_value(const ParameterInfo& row, double value, std::vector<ClampedValue>& clamped) {
+  const double wanted = std::isnan(value) ? row.default_value : value;
+  const double inside = std::clamp(wanted, row.lower, row.upper);
+  const double tolerance = 1e-9 * std::max(1.0, std::fabs(inside));
+  if (!(std::fabs(value - inside) <= tolerance)) clamped.push_back({row.full_name(), value, inside});
+  const bool whole = row.scale == Scale::choice || (row.scale == Scale::integer && !row.relaxable);
+  return (whole ? std::round(inside) : inside) + 0.0;  // + 0.0: never -0
+}
+
+}  // namespace espalier

@@ -1,0 +1,65 @@
+#include "fitting/species_space/preset_collection.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/error.h"
+
+namespace espalier {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kBest = "best.toml";
+
+std::vector<fs::path> sorted_entries(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> paths;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    paths.push_back(entry.path());
+  if (error)
+    throw_input_error("--presets: {}: got '{}', expected a folder that can be read", folder.string(),
+                      error.message());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+Preset load_best(const fs::path& run) {
+  Preset preset = load_preset((run / kBest).string());
+  preset.name = run.filename().string();
+  return preset;
+}
+
+void load_folder(const fs::path& given, std::vector<Preset>& presets) {
+  const fs::path folder = given.filename().empty() ? given.parent_path() : given;  // "runs/" is "runs"
+  const std::size_t before = presets.size();
+  std::error_code ignored;
+  if (fs::exists(folder / kBest, ignored)) {
+    presets.push_back(load_best(folder));
+    return;
+  }
+  for (const fs::path& path : sorted_entries(folder))
+    if (fs::exists(path / kBest, ignored))
+      presets.push_back(load_best(path));
+    else if (path.extension() == ".toml")
+      presets.push_back(load_preset(path.string()));
+  if (presets.size() == before)
+    throw_input_error("--presets: got '{}' without presets, expected *.toml or runs with {}", given.string(),
+                      kBest);
+}
+
+}  // namespace
+
+std::vector<Preset> load_presets(const std::vector<std::string>& names) {
+  std::vector<Preset> presets;
+  std::error_code ignored;
+  for (const std::string& name : names.empty() ? bundled_presets() : names)
+    if (fs::is_directory(name, ignored))
+      load_folder(name, presets);
+    else
+      presets.push_back(load_preset(name));
+  return presets;
+}
+
+}  // namespace espalier

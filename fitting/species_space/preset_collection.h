@@ -1,0 +1,15 @@
+// Presets by the handful: the bundled ones, those of a folder, the results of finished fits.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "models/preset.h"
+
+namespace espalier {
+
+/// Presets named one by one (as load_preset takes them), the directory of a run (its best.toml), a folder of
+/// runs, or a folder of presets; no names: the bundled ones. In the order given, folders sorted by name. A
+/// run's preset is called as its directory. Throws InputError for what holds no preset.
+std::vector<Preset> load_presets(const std::vector<std::string>& names);
+
+}  // namespace espalier

@@ -1,0 +1,45 @@
+// Crowns of two shapes, and the same tree with more levels of branching.
+#include <gtest/gtest.h>
+
+#include "models/preset.h"
+#include "weber_penn/deepen.h"
+#include "weber_penn/estimate.h"
+#include "weber_penn/model.h"
+#include "weber_penn/shape_ratio.h"
+
+namespace espalier {
+namespace {
+
+TEST(MixedCrown, LiesBetweenItsTwoShapes) {
+  WeberPennParameters crown;
+  crown.shape = 0;
+  crown.shape_2 = 3;
+  crown.shape_mix = 0.25f;
+  for (const float ratio : {0.f, 0.3f, 0.8f, 1.f}) {
+    const float conical = shape_ratio(0, ratio, crown), cylindrical = shape_ratio(3, ratio, crown);
+    EXPECT_FLOAT_EQ(crown_shape_ratio(ratio, crown), 0.75f * conical + 0.25f * cylindrical);
+  }
+  crown.shape_mix = 0;
+  EXPECT_EQ(crown_shape_ratio(0.3f, crown), shape_ratio(0, 0.3f, crown));
+}
+
+TEST(Deepened, ExpectsAsManyLeavesAsBefore) {
+  for (const char* name : {"palm", "fan_palm", "small_pine", "bamboo", "acer", "quaking_aspen"}) {
+    const ParameterValues plant = load_preset(name).values, deeper = deepened_values(plant, 4);
+    const auto& model = weber_penn_model();
+    EXPECT_NEAR(model.estimate(deeper).leaves / model.estimate(plant).leaves, 1, 0.02) << name;
+  }
+}
+
+TEST(Deepened, IsValidAndLeavesDeepTreesAlone) {
+  for (const std::string& name : bundled_presets()) {
+    const ParameterValues plant = load_preset(name).values;
+    EXPECT_EQ(deepened_values(plant, 1), plant);
+    const ParameterValues deeper = deepened_values(plant, 4);
+    for (std::size_t row = 0; row < deeper.size(); ++row)
+      check_value(weber_penn_model().table().rows[row], deeper[row], name);
+  }
+}
+
+}  // namespace
+}  // namespace espalier
