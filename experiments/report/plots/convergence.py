@@ -1,4 +1,4 @@
-"""Convergence: the best fitness so far over true evaluations, the median of all runs and the band of their quartiles.
+"""Convergence: the best fitness so far over true evaluations, the median of all runs and the band of the quartiles.
 
 The lines join the points of the table, which are close. One figure for all targets together, one with a panel a target."""
 
