@@ -18,8 +18,8 @@ CAPTIONS = {
     "generations": "Pixel accuracy by evaluations. Thick: the best so far; thin: the best of each generation. "
                    "Grey band: what the dissertation reports at the end.",
     "convergence": "Best fitness so far over true evaluations (plants grown and compared): median of all runs; bands "
-                   "between the quartiles (where there are many methods, of the best three)."
-                   " The methods with the best mean ranks are in colour.",
+                   "between the quartiles (where there are many methods, of the best three). "
+                   "The methods with the best mean ranks are in colour.",
     "convergence_targets": "The same for each target.",
     "data_profile": "Share of all (target, seed, level) that a method has reached within so many evaluations. Levels "
                     "lie between the median fitness of the first evaluations and the best that any run reached.",
