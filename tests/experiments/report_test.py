@@ -180,7 +180,8 @@ class WholePage(ReportTest):
         page = self.page(self.once_drawn("fits"))
         self.assertEqual(len(page.references), 5 + 2 * 3)
         for words in ["Which optimiser fits trees best?", "after a few hours <of runtime> & more", "nothing was fitted",
-                      "critical_difference", "quaking_aspen, random_search, seed 0", "espalier experiment run fits.toml",
+                      "critical_difference", "quaking_aspen, random_search, seed 0",
+                      "espalier experiment run fits.toml",
                       "seeds = [1, 2]", "nlopt: 2.7.1"]:
             self.assertIn(words, page.text)
 

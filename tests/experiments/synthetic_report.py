@@ -131,7 +131,8 @@ def write_ranks(report, strength, blocks, rng):
     difference = 3.8 * math.sqrt(k * (k + 1) / 6 / blocks)
     rows = [[m, rank, letters, 0.5 + strength[m] / 3, 0.45 + strength[m] / 3, rng.uniform(3, 60), blocks]
             for m, rank, letters in zip(order, ranks, group_letters(ranks, difference))]
-    write_csv(report / "ranks.csv", "optimizer,mean_rank,group,median_fitness,median_unseen_fitness,median_seconds,runs",
+    write_csv(report / "ranks.csv",
+              "optimizer,mean_rank,group,median_fitness,median_unseen_fitness,median_seconds,runs",
               rows)
     write_csv(report / "friedman.csv", "statistic,value",
               [["blocks", blocks], ["treatments", k], ["chi_squared", 1234.5678], ["degrees_of_freedom", k - 1],
