@@ -18,7 +18,8 @@ CAPTIONS = {
     "generations": "Fitness by evaluations. Thick: the best so far; thin: the best of each generation. Grey band, where "
                    "there is one: what the source reports.",
     "convergence": "Best fitness so far over true evaluations (plants grown and compared): median of all runs; bands "
-                   "between the quartiles. The methods with the best mean ranks are in colour.",
+                   "between the quartiles (where there are many methods, of the best three). "
+                   "The methods with the best mean ranks are in colour.",
     "convergence_targets": "The same for each target.",
     "data_profile": "Share of all (target, seed, level) that a method has reached within so many evaluations. Levels "
                     "lie between the median fitness of the first evaluations and the best that any run reached.",
@@ -175,7 +176,8 @@ def repeat(meta):
     if meta.get("command"):
         parts.append(f"<pre>{text(meta['command'])}</pre>")
     if meta.get("declaration"):
-        parts.append(f"<details open><summary>The declaration</summary><pre>{text(meta['declaration'])}</pre></details>")
+        declaration = f"<pre>{text(meta['declaration'])}</pre>"
+        parts.append(f"<details open><summary>The declaration</summary>{declaration}</details>")
     if meta.get("versions"):
         parts.append(f"<details><summary>Versions</summary><pre>{text(meta['versions'])}</pre></details>")
     return "\n".join(parts) if len(parts) > 1 else ""

@@ -23,8 +23,8 @@ METHODS = ["random_search", "hewitt_ga", "ga", "cma_es", "GN_DIRECT", "GN_DIRECT
            "LN_PRAXIS", "LN_NELDERMEAD", "LN_SBPLX"]
 TARGETS = ["quaking_aspen", "lombardy_poplar", "weeping_willow", "black_oak", "palm", "fir", "acer", "apple", "bamboo",
            "silver_birch", "small_pine", "black_tupelo"]
-SPECIES = TARGETS + ["balsam_fir", "cambridge_oak", "douglas_fir", "european_larch", "fan_palm", "hill_cherry", "sassafras",
-                     "sphere_tree"]
+SPECIES = TARGETS + ["balsam_fir", "cambridge_oak", "douglas_fir", "european_larch", "fan_palm", "hill_cherry",
+                     "sassafras", "sphere_tree"]
 GRID = sorted({round(10 ** (k / 24 * 3.7)) for k in range(25)} | {5000})
 
 
@@ -43,10 +43,14 @@ def write_png(path, size, seed):
     for y in range(size):
         reach = size * (width * math.sin(math.pi * min(1, y / size / 0.8)) if y < 0.8 * size else 0.03)
         rows += b"\0" + bytes(255 if abs(x - size / 2) < reach * rng.uniform(0.7, 1.1) else 0 for x in range(size))
-    chunk = [(b"IHDR", struct.pack(">IIBBBBB", size, size, 8, 0, 0, 0, 0)), (b"IDAT", zlib.compress(rows)), (b"IEND", b"")]
+    header = struct.pack(">IIBBBBB", size, size, 8, 0, 0, 0, 0)
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(body)) + name + body + struct.pack(">I", zlib.crc32(name + body)) for name, body in chunk))
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + png_chunk(b"IHDR", header) + png_chunk(b"IDAT", zlib.compress(rows))
+                     + png_chunk(b"IEND", b""))
+
+
+def png_chunk(name, body):
+    return struct.pack(">I", len(body)) + name + body + struct.pack(">I", zlib.crc32(name + body))
 
 
 def meta(kind, title, **more):
@@ -94,7 +98,8 @@ def write_run(report, row):
     for i, name in enumerate(["target", "best", "overlay"]):
         write_png(run / f"{name}.png", 96, f"{row[0]}{i}")
     return {"run": row[0], "target": f"../runs/{row[0]}/target.png", "result": f"../runs/{row[0]}/best.png",
-            "overlay": f"../runs/{row[0]}/overlay.png", "label": f"{row[1]}, {row[2]}, seed {row[3]}", "fitness": row[5]}
+            "overlay": f"../runs/{row[0]}/overlay.png", "fitness": row[5],
+            "label": f"{row[1]}, {row[2]}, seed {row[3]}"}
 
 
 def quartiles(values):
@@ -126,11 +131,13 @@ def write_ranks(report, strength, blocks, rng):
     difference = 3.8 * math.sqrt(k * (k + 1) / 6 / blocks)
     rows = [[m, rank, letters, 0.5 + strength[m] / 3, 0.45 + strength[m] / 3, rng.uniform(3, 60), blocks]
             for m, rank, letters in zip(order, ranks, group_letters(ranks, difference))]
-    write_csv(report / "ranks.csv", "optimizer,mean_rank,group,median_fitness,median_unseen_fitness,median_seconds,runs", rows)
+    write_csv(report / "ranks.csv",
+              "optimizer,mean_rank,group,median_fitness,median_unseen_fitness,median_seconds,runs",
+              rows)
     write_csv(report / "friedman.csv", "statistic,value",
               [["blocks", blocks], ["treatments", k], ["chi_squared", 1234.5678], ["degrees_of_freedom", k - 1],
-               ["p_value", 1.2e-40], ["iman_davenport_f", 51.2], ["iman_davenport_p", 0], ["critical_difference", difference],
-               ["alpha", 0.05]])
+               ["p_value", 1.2e-40], ["iman_davenport_f", 51.2], ["iman_davenport_p", 0],
+               ["critical_difference", difference], ["alpha", 0.05]])
 
 
 def group_letters(ranks, difference):
@@ -173,7 +180,8 @@ def write_growth(report, species, seeds):
     write_csv(report / "growth_complexity.csv", "species,min,q25,median,q75,max", boxes)
     write_csv(report / "growth_fit.csv", "what,exponent,standard_error,factor,points",
               [["stems", 1.01, 0.004, 1.05e-7, len(rows)], ["leaves", 0.99, 0.005, 3.3e-8, len(rows)]])
-    write_meta(report, meta("growth", "How long does a tree take?", tables=[{"file": "growth_fit.csv", "title": "Fits"}]))
+    write_meta(report, meta("growth", "How long does a tree take?",
+                            tables=[{"file": "growth_fit.csv", "title": "Fits"}]))
 
 
 def write_pictures(report, rows, columns):
@@ -183,7 +191,8 @@ def write_pictures(report, rows, columns):
         for j in range(len(columns)):
             write_png(report / cells[i][j], 96, f"{i}-{j}")
     cells[-1][-1] = ""
-    write_meta(report, meta("pictures", "What radius_mod does", sheet={"rows": rows, "columns": columns, "cells": cells}))
+    sheet = {"rows": rows, "columns": columns, "cells": cells}
+    write_meta(report, meta("pictures", "What radius_mod does", sheet=sheet))
 
 
 def fresh(directory, kind):

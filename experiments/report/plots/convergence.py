@@ -1,6 +1,7 @@
-"""Convergence: the best fitness so far over true evaluations, the median of all runs and the band of their quartiles.
+"""Convergence: the best fitness so far over true evaluations, the median of all runs and the band of the quartiles.
 
-The lines join the points of the table, which are close. One figure for all targets together, one with a panel a target."""
+The lines join the points of the table, which are close. One figure for all targets together,
+one with a panel a target."""
 
 import matplotlib.pyplot as plt
 
