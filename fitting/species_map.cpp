@@ -86,6 +86,21 @@ bool push_apart(TreeBox& a, TreeBox& b) {
   return true;
 }
 
+/// Moves a box off the point of another species, by the shortest way.
+void push_off(TreeBox& box, ChartPoint point) {
+  constexpr float kRoomPx = 9;
+  const float left = point.x_px + kRoomPx - box.x, right = box.x + box.width - (point.x_px - kRoomPx);
+  const float up = point.y_px + kRoomPx - box.y, down = box.y + box.height - (point.y_px - kRoomPx);
+  const float shortest = std::min({left, right, up, down});
+  if (shortest <= 0) return;
+  if (shortest == left)
+    box.x += left;
+  else if (shortest == right)
+    box.x -= right;
+  else
+    box.y += shortest == up ? up : -down;
+}
+
 void keep_on_map(TreeBox& box) {
   box.x = std::clamp(box.x, kLeftPx + 2, kRightPx - box.width);
   box.y = std::clamp(box.y, kTopPx, kBottomPx - box.height - 2);
@@ -97,7 +112,14 @@ void pull_home(TreeBox& box, float share) {
   box.y += share * (box.point.y_px - box.height / 2 - box.y);
 }
 
-/// Pulls boxes to their points ever more weakly while it pushes them apart, then only pushes.
+void push_off_points(std::vector<TreeBox>& boxes) {
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t j = 0; j < boxes.size(); ++j)
+      if (i != j) push_off(boxes[i], boxes[j].point);
+}
+
+/// Pulls boxes to their points ever more weakly while it pushes them apart and off the points of others; then
+/// only apart, since no box may cover another, though one may have to cover a point.
 void spread(std::vector<TreeBox>& boxes) {
   constexpr int kPulls = 400, kRounds = 3000;
   bool moved = true;
@@ -105,6 +127,7 @@ void spread(std::vector<TreeBox>& boxes) {
     moved = false;
     for (TreeBox& box : boxes)
       pull_home(box, std::max(0.0f, 0.2f * (1 - static_cast<float>(round) / kPulls)));
+    if (round < kPulls) push_off_points(boxes);
     for (std::size_t i = 0; i < boxes.size(); ++i)
       for (std::size_t j = i + 1; j < boxes.size(); ++j) moved = push_apart(boxes[i], boxes[j]) || moved;
     for (TreeBox& box : boxes) keep_on_map(box);

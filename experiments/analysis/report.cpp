@@ -8,8 +8,10 @@
 #include "experiments/analysis/draw_report.h"
 #include "experiments/analysis/fit_tables.h"
 #include "experiments/analysis/growth_tables.h"
+#include "experiments/analysis/start_picture.h"
 #include "experiments/runner/experiment.h"
 #include "experiments/runner/experiment_directory.h"
+#include "image/picture.h"
 
 namespace espalier {
 
@@ -72,11 +74,14 @@ std::vector<const FinishedFit*> fits_to_show(const std::vector<FinishedFit>& fit
   return shown;
 }
 
-Json thumbnails_of(const std::vector<FinishedFit>& fits) {
+/// Pictures of start, target and result; that of the start is drawn into the report.
+Json thumbnails_of(const std::vector<FinishedFit>& fits, const fs::path& directory) {
   Json list = Json::array();
   for (const FinishedFit* fit : fits_to_show(fits)) {
-    const std::string run = "../runs/" + fit->run;
+    const std::string run = "../runs/" + fit->run, start = fmt::format("start_{}.png", fit->run);
+    write_mask_png(directory / "report" / start, draw_best_start(run_directory(directory, fit->run)));
     list.push_back({{"run", fit->run},
+                    {"start", start},
                     {"target", run + "/target.png"},
                     {"result", run + "/best.png"},
                     {"overlay", run + "/overlay.png"},
@@ -134,21 +139,21 @@ Json meta_of(const ExperimentWords& words, const ReportOptions& options) {
 fs::path write_report(const fs::path& directory, const ReportOptions& options) {
   const ExperimentWords words = words_in(directory);
   check_done(directory);
+  const fs::path report = directory / "report";
+  fs::remove_all(report);
+  fs::create_directories(report);
   Tables tables;
   Json meta = meta_of(words, options);
   if (words.kind == "fits") {
     const std::vector<FinishedFit> fits = read_finished_fits(directory);
     tables = fit_tables(fits);
-    meta["thumbnails"] = thumbnails_of(fits);
+    meta["thumbnails"] = thumbnails_of(fits, directory);
     meta["objective"] = objective_in(directory);
   }
   if (words.kind == "growth") tables = growth_tables(directory);
   tables.emplace("results.csv", read_csv(directory / "results.csv"));
   if (words.kind == "pictures") meta["sheet"] = sheet_of(tables.at("results.csv"));
   meta["tables"] = table_list(tables);
-  const fs::path report = directory / "report";
-  fs::remove_all(report);
-  fs::create_directories(report);
   for (const auto& [file, table] : tables) write_file_atomically(report / file, to_csv(table));
   write_file_atomically(report / "meta.json", meta.dump(2) + "\n");
   draw_report(report);

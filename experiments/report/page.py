@@ -49,9 +49,9 @@ th, td { padding: .2rem .6rem; border-bottom: 1px solid var(--line); text-align:
 .number { text-align: right; font-variant-numeric: tabular-nums; }
 details { margin: 1rem 0; } summary { cursor: pointer; font-weight: 600; }
 .runs { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 21rem), 1fr)); gap: 1rem; }
-.runs figure { margin: 0; } .three { display: grid; grid-template-columns: repeat(3, 1fr); gap: .3rem; }
-.three img, .three span { width: 100%; background: #fff; display: block; }
-.three span { color: #555; font-size: .8rem; padding: .5rem; }
+.runs figure { margin: 0; } .row { display: grid; grid-auto-columns: 1fr; grid-auto-flow: column; gap: .3rem; }
+.row img, .row span { width: 100%; background: #fff; display: block; }
+.row span { color: #555; font-size: .8rem; padding: .5rem; }
 pre { background: var(--card); border: 1px solid var(--line); border-radius: .4rem; padding: .8rem 1rem;
   overflow-x: auto; font-size: .85rem; }
 """
@@ -154,15 +154,17 @@ def short(value):
 
 def thumbnails(directory, meta):
     runs = "\n".join(thumbnail(directory, run) for run in meta["thumbnails"])
-    return (f"<h2>Runs</h2>\n<p class=\"soft\">Each: the target, the result, and both laid over each other.</p>\n"
+    return (f"<h2>Runs</h2>\n<p class=\"soft\">Each: the start where there is one, the target, the result, and the two "
+            f"laid over each other.</p>\n"
             f"<div class=\"runs\">{runs}</div>") if runs else ""
 
 
 def thumbnail(directory, run):
-    pictures = "".join(picture(directory, run.get(kind), kind) for kind in ["target", "result", "overlay"])
+    kinds = ["start"] * ("start" in run) + ["target", "result", "overlay"]
+    pictures = "".join(picture(directory, run.get(kind), kind) for kind in kinds)
     fitness = run.get("fitness")
     caption = text(run.get("label") or run.get("run")) + (f", fitness {fitness:.3f}" if fitness is not None else "")
-    return f"<figure><div class=\"three\">{pictures}</div><figcaption>{caption}</figcaption></figure>"
+    return f"<figure><div class=\"row\">{pictures}</div><figcaption>{caption}</figcaption></figure>"
 
 
 def picture(directory, path, kind):

@@ -30,6 +30,7 @@ struct OptimizerDeclaration {
 struct SpaceDeclaration {
   std::string label = "default";
   SearchChoice search;
+  std::string first;  ///< searched before it: "species:2", or nothing
 };
 
 struct FitsDeclaration {
@@ -47,6 +48,8 @@ struct FitsDeclaration {
 struct PictureChange {
   std::string label;
   std::string species;                ///< empty: that of the sheet
+  std::string blend_with;             ///< another species, empty for none
+  double t = 0.5;                     ///< how far towards it
   std::map<std::string, double> set;  ///< parameters
   std::string prune_to;               ///< a volume [environment/volume.h], empty for none
 };

@@ -167,6 +167,7 @@ std::string set_objective(FitCell& cell, const std::string& objective) {
 
 std::string set_space(FitCell& cell, const SpaceDeclaration& space) {
   cell.record.search = space.search;
+  cell.record.space = space.first;
   return space.label;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "environment/volume.h"
+#include "fitting/species_space/blend.h"
 #include "image/picture.h"
 #include "models/models.h"
 #include "models/preset.h"
@@ -22,13 +23,20 @@ PictureChange merged(const PictureChange& row, const PictureChange& column) {
   PictureChange change = row;
   for (const auto& [name, value] : column.set) change.set[name] = value;
   if (!column.species.empty()) change.species = column.species;
+  if (!column.blend_with.empty()) change.blend_with = column.blend_with, change.t = column.t;
   if (!column.prune_to.empty()) change.prune_to = column.prune_to;
   return change;
+}
+
+/// Towards another species, in the encoding in which what lies between means something.
+void blend_into(const Model& model, const Preset& other, double t, ParameterValues& values) {
+  values = blend(model, *make_encoding("monotone", model.table()), values, other.values, t);
 }
 
 Plant grow(const PicturesDeclaration& pictures, const PictureChange& change) {
   Preset preset = load_preset(change.species.empty() ? pictures.species : change.species);
   const Model& model = model_by_name(preset.model);
+  if (!change.blend_with.empty()) blend_into(model, load_preset(change.blend_with), change.t, preset.values);
   for (const auto& [name, value] : change.set) preset.values[model.table().index_of(name)] = value;
   const auto volume = change.prune_to.empty() ? nullptr : parse_volume(change.prune_to);
   GrowthSettings settings;

@@ -9,6 +9,7 @@
 #include "experiments/runner/experiment.h"
 #include "fitting/optimizers/search_method.h"
 #include "fitting/search_space.h"
+#include "fitting/space_search.h"
 #include "image/compare.h"
 #include "models/models.h"
 #include "models/preset.h"
@@ -167,13 +168,15 @@ std::vector<std::string> read_objectives(const TomlSection& fits, const std::str
 
 SpaceDeclaration read_space(const Element& element) {
   const TomlSection& section = element.section();
-  section.expect_only({"label", "free", "fixed"});
+  section.expect_only({"label", "free", "fixed", "first"});
   SpaceDeclaration space;
   space.label = section.text_or("label", "default");
   if (section.has("free")) space.search.free = section.texts("free");
   if (section.has("fixed")) space.search.fixed = section.section("fixed").numbers();
+  space.first = section.text_or("first", "");
   const ParameterTable& table = model_by_name("weber_penn").table();
   located(element.place(), [&] {
+    parse_search_space(space.first);
     ParameterValues values = table.defaults();
     apply_fixed(table, space.search, values);
     return make_search_space(table, values, space.search);
@@ -262,7 +265,7 @@ std::string beside_the_file(const TomlSection& section, const std::string& volum
 }
 
 PictureChange read_change(const TomlSection& section, const std::string& species) {
-  section.expect_only({"label", "species", "set", "prune_to"});
+  section.expect_only({"label", "species", "blend_with", "t", "set", "prune_to"});
   PictureChange change;
   change.label = section.text_or("label", "");
   change.species = section.text_or("species", "");
@@ -280,6 +283,11 @@ PictureChange read_change(const TomlSection& section, const std::string& species
   } else if (section.has("species")) {
     located(section, "species", [&] { return load_preset(grown); });
   }
+  change.blend_with = section.text_or("blend_with", "");
+  change.t = section.number_or("t", change.t);
+  if (section.has("t") && !(change.t >= 0 && change.t <= 1)) section.fail("t", "a number 0..1");
+  if (section.has("blend_with"))
+    located(section, "blend_with", [&] { return load_preset(change.blend_with); });
   change.prune_to = beside_the_file(section, section.text_or("prune_to", ""));
   if (!change.prune_to.empty())
     located(section, "prune_to", [&] { return parse_volume(change.prune_to) != nullptr; });

@@ -4,16 +4,14 @@
 
 namespace espalier {
 
-/// Discards what the process writes to file descriptor 2 during its life. One at a time.
+/// Discards what the process writes to file descriptor 2 during its life. Lives may overlap, in any order and
+/// on any thread: the first turns stderr off, the last turns it on again.
 class QuietStderr {
  public:
   QuietStderr();
   ~QuietStderr();
   QuietStderr(const QuietStderr&) = delete;
   QuietStderr& operator=(const QuietStderr&) = delete;
-
- private:
-  int saved_descriptor_ = -1;
 };
 
 }  // namespace espalier
