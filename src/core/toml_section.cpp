@@ -80,7 +80,7 @@ std::map<std::string, double> TomlSection::numbers() const {
   return values;
 }
 
-std::string TomlSection::text_or(std::string_view key, std::string otherwise) const {
+std::string TomlSection::text_or(std::string_view key, const std::string& otherwise) const {
   return has(key) ? text(key) : otherwise;
 }
 

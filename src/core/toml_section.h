@@ -35,7 +35,7 @@ struct TomlSection {
   std::map<std::string, double> numbers() const;
 
   // The same for keys that may be missing.
-  std::string text_or(std::string_view key, std::string otherwise) const;
+  std::string text_or(std::string_view key, const std::string& otherwise) const;
   double number_or(std::string_view key, double otherwise) const;
   std::int64_t whole_or(std::string_view key, std::int64_t otherwise) const;
 };
