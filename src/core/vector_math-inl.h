@@ -73,6 +73,42 @@ inline Vector arc_tangent2_deg(Vector y, Vector x) {
   return hn::CopySign(angle, y);
 }
 
+/// Of positive numbers that are neither infinite nor subnormal (Cephes: logf.c).
+inline Vector logarithm2(Vector x) {
+  const Floats d;
+  const hn::RebindToSigned<Floats> di;
+  const auto bits = hn::BitCast(di, x);
+  const auto half = hn::BitCast(d, hn::Or(hn::And(bits, hn::Set(di, 0x007fffff)), hn::Set(di, 0x3f000000)));
+  const auto is_low = hn::Lt(half, set(0.70710678f));  // mantissas in [√½, √2)
+  const Vector exponent = hn::ConvertTo(d, hn::Sub(hn::ShiftRight<23>(bits), hn::Set(di, 126)));
+  const Vector e = hn::Sub(exponent, hn::IfThenElseZero(is_low, set(1)));
+  const Vector f = hn::Sub(hn::IfThenElse(is_low, hn::Add(half, half), half), set(1));
+  Vector p = set(7.0376836292e-2f);
+  for (const float coefficient : {-1.1514610310e-1f, 1.1676998740e-1f, -1.2420140846e-1f, 1.4249322787e-1f,
+                                  -1.6668057665e-1f, 2.0000714765e-1f, -2.4999993993e-1f, 3.3333331174e-1f})
+    p = hn::Add(hn::Mul(p, f), set(coefficient));
+  const Vector z = hn::Mul(f, f);
+  const Vector natural = hn::Add(f, hn::Sub(hn::Mul(hn::Mul(p, f), z), hn::Mul(z, set(0.5f))));
+  return hn::Add(e, hn::Mul(natural, set(1.44269504f)));
+}
+
+/// 2^x; x is clamped to what is no subnormal number (Cephes: exp2f.c).
+inline Vector power_of_2(Vector x) {
+  const Floats d;
+  const hn::RebindToSigned<Floats> di;
+  x = hn::Min(hn::Max(x, set(-126)), set(127));
+  const Vector whole = hn::Round(x), f = hn::Sub(x, whole);
+  Vector p = set(1.535336188319500e-4f);
+  for (const float coefficient : {1.339887440266574e-3f, 9.618437357674640e-3f, 5.550332471162809e-2f,
+                                  2.402264791363012e-1f, 6.931472028550421e-1f, 1.0f})
+    p = hn::Add(hn::Mul(p, f), set(coefficient));
+  const auto scale = hn::ShiftLeft<23>(hn::Add(hn::ConvertTo(di, whole), hn::Set(di, 127)));
+  return hn::Mul(p, hn::BitCast(d, scale));
+}
+
+/// x^exponent for positive x, to about six digits.
+inline Vector power(Vector x, float exponent) { return power_of_2(hn::Mul(logarithm2(x), set(exponent))); }
+
 /// Three vectors: a point or direction a lane.
 struct Vector3 {
   Vector x, y, z;

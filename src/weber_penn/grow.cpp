@@ -8,7 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "weber_penn/child_stem.h"
 #include "weber_penn/children.h"
+#include "weber_penn/curve_knots.h"
 #include "weber_penn/leaf_batch.h"
 #include "weber_penn/leaf_placement.h"
 #include "weber_penn/pruning.h"
@@ -16,29 +18,36 @@
 #include "weber_penn/stem_batch.h"
 #include "weber_penn/stem_knots.h"
 #include "weber_penn/trunks.h"
+#include "weber_penn/twig_batch.h"
 
 namespace espalier {
 
 namespace {
 
-constexpr float kThinnestParent_m = 0.0001f;
-constexpr float kThinnestChild_m = 0.005f;
-constexpr float kShortestStem_m = 1e-5f;
-
 /// What a thread keeps from one plant to the next: memory only, nothing of the plant.
 struct GrowthMemory {
   std::vector<GrowingStem> level, next_level;  ///< queues
   StemBatch stem_batch;
+  ChildBatchMemory leaves, twigs;
+};
+
+/// Which children a stem bears, and whether vectors place them.
+struct Offspring {
+  bool leaves = false, stems = false;
+  ChildBatch* batch = nullptr;
 };
 
 class Growth {
  public:
-  Growth(const WeberPennParameters& p, const GrowthSettings& settings, GrowthMemory& memory, Plant& plant)
+  Growth(const WeberPennParameters& p, const GrowthSettings& settings, Lanes lanes, GrowthMemory& memory,
+         Plant& plant)
       : p_(p),
         settings_(settings),
+        uses_vectors_(lanes == Lanes::many),
         plant_(plant),
         stem_batch_(memory.stem_batch),
-        batch_(p, plant.leaves),
+        leaf_batch_(p, memory.leaves, plant.leaves),
+        twig_batch_(p, settings, memory.twigs, memory.next_level),
         level_(memory.level),
         next_level_(memory.next_level) {
     level_.clear();
@@ -50,22 +59,25 @@ class Growth {
  private:
   class StemGrowth;
 
-  StemGrowth begin_stem(const GrowingStem& stem);
-  void end_stem();
+  std::int32_t last_stem() const { return static_cast<std::int32_t>(plant_.stems.size()) - 1; }
+  Offspring offspring(const GrowingStem& stem);
+  bool takes_level(const GrowingStem& any_stem);
+  void begin_stem(const GrowingStem& stem);
   void grow_stem(const GrowingStem& stem);
   void grow_stems(std::span<const GrowingStem> stems);
   std::size_t grow_next(std::size_t index, bool in_batches);
   void grow_child(const GrowingStem& parent, std::int32_t parent_index, const ChildSite& site);
   float child_length_m(const GrowingStem& parent, const ChildSite& site) const;
-  float child_radius_m(const GrowingStem& parent, const ChildSite& site, float length_m) const;
   bool prune(GrowingStem& stem) const;
   double over_budget_factor() const;
 
   const WeberPennParameters& p_;
   const GrowthSettings& settings_;
+  bool uses_vectors_;
   Plant& plant_;
   StemBatch& stem_batch_;
-  LeafBatch batch_;
+  LeafBatch leaf_batch_;
+  TwigBatch twig_batch_;
   std::vector<GrowingStem>&level_, &next_level_;
 };
 
@@ -73,40 +85,31 @@ class Growth {
 class Growth::StemGrowth : public StemVisitor {
  public:
   StemGrowth(Growth& growth, const GrowingStem& stem)
-      : growth_(growth), index_(static_cast<std::int32_t>(growth.plant_.stems.size()) - 1) {
-    const bool last_level = stem.level + 1 >= growth.p_.level_count();
-    bears_leaves_ = last_level && growth.p_.leaf_blos_num != 0;
-    in_batches_ = bears_leaves_ && LeafBatch::takes(stem, growth.p_);
-    if (bears_leaves_)
+      : growth_(growth), index_(growth.last_stem()), offspring_(growth.offspring(stem)) {
+    if (offspring_.leaves)
       children_.emplace(stem, ChildPlacer::Bears::leaves, growth.p_);
-    else if (!last_level)
+    else if (offspring_.stems)
       children_.emplace(stem, ChildPlacer::Bears::stems, growth.p_);
+    growth.twig_batch_.set_parent(index_);
   }
 
   bool segment(const GrowingStem& stem, const Segment& segment) override {
     append_knots(stem, segment, growth_.p_, growth_.plant_.knots);
-    bear_children(stem, segment);
+    if (children_) bear_children(stem, segment);
     return true;
-  }
-
-  /// Those of a stem that does not split.
-  void all_segments(const GrowingStem& stem, std::span<const Segment> segments) {
-    append_knots(stem, segments, growth_.p_, growth_.plant_.knots);
-    for (const Segment& segment : segments) bear_children(stem, segment);
   }
 
   void split(const GrowingStem& clone) override { growth_.level_.push_back(clone); }
 
  private:
   void bear_children(const GrowingStem& stem, const Segment& segment) {
-    if (!children_) return;
     children_->begin(stem, segment);
-    if (in_batches_) {
-      growth_.batch_.add(stem, segment, *children_);
+    if (offspring_.batch) {
+      offspring_.batch->add(stem, segment, *children_);
       return;
     }
     for (ChildSite site; children_->next(site);) {
-      if (bears_leaves_)
+      if (offspring_.leaves)
         place_leaf(stem, site, growth_.p_, growth_.plant_.leaves);
       else
         growth_.grow_child(stem, index_, site);
@@ -115,35 +118,51 @@ class Growth::StemGrowth : public StemVisitor {
 
   Growth& growth_;
   std::int32_t index_;
-  bool bears_leaves_ = false, in_batches_ = false;
+  Offspring offspring_;
   std::optional<ChildPlacer> children_;
 };
 
+Offspring Growth::offspring(const GrowingStem& stem) {
+  if (stem.level + 1 < p_.level_count())
+    return {.stems = true, .batch = uses_vectors_ && TwigBatch::takes(stem, p_) ? &twig_batch_ : nullptr};
+  if (p_.leaf_blos_num == 0) return {};
+  return {.leaves = true, .batch = uses_vectors_ && LeafBatch::takes(stem, p_) ? &leaf_batch_ : nullptr};
+}
+
 /// Enters the stem into the plant's arrays; its knots follow.
-Growth::StemGrowth Growth::begin_stem(const GrowingStem& stem) {
+void Growth::begin_stem(const GrowingStem& stem) {
   plant_.stems.parent.push_back(stem.parent);
   plant_.stems.level.push_back(static_cast<std::uint8_t>(stem.level));
   plant_.stems.path_key.push_back(stem.key.value);
-  return StemGrowth(*this, stem);
-}
-
-void Growth::end_stem() {
-  plant_.stems.first_knot.push_back(static_cast<std::uint32_t>(plant_.knots.size()));
 }
 
 void Growth::grow_stem(const GrowingStem& stem) {
-  StemGrowth growth = begin_stem(stem);
+  begin_stem(stem);
+  StemGrowth growth(*this, stem);
   walk_stem(stem, p_, growth);
-  end_stem();
+  plant_.stems.first_knot.push_back(static_cast<std::uint32_t>(plant_.knots.size()));
 }
 
+/// Stems that a StemBatch takes, on whose level vectors compute everything.
 void Growth::grow_stems(std::span<const GrowingStem> stems) {
   stem_batch_.walk(stems, p_);
+  const std::int32_t first = last_stem() + 1;
+  for (const GrowingStem& stem : stems) begin_stem(stem);
+  append_knots(stems, stem_batch_, p_, plant_);
+  ChildBatch* const children = offspring(stems[0]).batch;
+  if (children == nullptr) return;
   for (std::size_t i = 0; i < stems.size(); ++i) {
-    StemGrowth growth = begin_stem(stems[i]);
-    growth.all_segments(stems[i], stem_batch_.segments(i));
-    end_stem();
+    twig_batch_.set_parent(first + static_cast<std::int32_t>(i));
+    children->add(stems[i], stem_batch_, i);
   }
+}
+
+/// Whether stems of this level grow in batches, with all that is on them.
+bool Growth::takes_level(const GrowingStem& any_stem) {
+  const Offspring of = offspring(any_stem);
+  const bool is_scalar = (of.leaves || of.stems) && of.batch == nullptr;
+  return uses_vectors_ && !is_scalar && StemBatch::takes(any_stem.level, p_) &&
+         has_plain_knots(any_stem.level, p_);
 }
 
 /// One stem, or as many as a batch holds; how many.
@@ -166,12 +185,6 @@ float Growth::child_length_m(const GrowingStem& parent, const ChildSite& site) c
   return longest_m * crown_shape_ratio(std::clamp(ratio, 0.f, 1.f), p_);
 }
 
-float Growth::child_radius_m(const GrowingStem& parent, const ChildSite& site, float length_m) const {
-  const float scaled_m = p_.radius_mod[level_index(parent.level + 1)] * parent.radius_m *
-                         std::pow(length_m / parent.length_m, p_.ratio_power);
-  return std::min(site.parent_radius_m, std::max(kThinnestChild_m, scaled_m));
-}
-
 void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, const ChildSite& site) {
   if (site.parent_radius_m < kThinnestParent_m) return;
   const int level = parent.level + 1;
@@ -187,12 +200,15 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
   child.length_m = site.grown_fraction * child_length_m(parent, site);
   if (child.length_m < kShortestStem_m) return;
   // [CH §3.2.1]: starts as close as is safe to the parent's surface; before pruning, which tests where it is.
-  const float unpruned_radius_m = child_radius_m(parent, site, child.length_m);
+  const auto radius_m = [&](float length_m) {
+    return child_radius_m(length_m, parent.length_m, parent.radius_m, site.parent_radius_m, level, p_);
+  };
+  const float unpruned_radius_m = radius_m(child.length_m);
   child.turtle.position_m += site.outward * (site.parent_radius_m - unpruned_radius_m);
   if (!prune(child)) return;
-  child.radius_m = child_radius_m(parent, site, child.length_m);
-  const int next = level_index(level + 1);
-  child.child_max = p_.length[next] + draw_signed(child.key, Draw::child_length) * p_.length_v[next];
+  child.radius_m = radius_m(child.length_m);
+  child.child_max = drawn_child_max(child, p_);
+  twig_batch_.flush();  // what waits comes before
   next_level_.push_back(child);
 }
 
@@ -204,9 +220,10 @@ bool Growth::prune(GrowingStem& stem) const {
 
 double Growth::over_budget_factor() const {
   const double stems =
-      static_cast<double>(plant_.stems.size() + next_level_.size()) / settings_.budget.max_stems;
+      (static_cast<double>(plant_.stems.size() + next_level_.size()) + twig_batch_.waiting()) /
+      settings_.budget.max_stems;
   const double leaves =
-      (static_cast<double>(plant_.leaves.size()) + batch_.waiting()) / settings_.budget.max_leaves;
+      (static_cast<double>(plant_.leaves.size()) + leaf_batch_.waiting()) / settings_.budget.max_leaves;
   return std::max(stems, leaves);
 }
 
@@ -216,35 +233,36 @@ GrowthResult Growth::run(Seed seed) {
   for (GrowingStem& trunk : level_) {
     if (!prune(trunk)) trunk.length_m = 0;
     trunk.radius_m = trunk.length_m * p_.ratio * p_.radius_mod[0];
-    trunk.child_max = p_.length[1] + draw_signed(trunk.key, Draw::child_length) * p_.length_v[1];
+    trunk.child_max = drawn_child_max(trunk, p_);
   }
   std::erase_if(level_, [](const GrowingStem& trunk) { return trunk.length_m < kShortestStem_m; });
   for (int level = 0; level < p_.level_count() && !level_.empty(); ++level) {
-    const bool in_batches = StemBatch::takes(level, p_);
+    const bool in_batches = takes_level(level_.front());
     for (std::size_t index = 0; index < level_.size();) {
       index += grow_next(index, in_batches);
       if (const double factor = over_budget_factor(); factor > 1) {
-        batch_.flush();
+        leaf_batch_.flush();
         return {false, factor};
       }
     }
+    twig_batch_.flush();
     std::swap(level_, next_level_);
     next_level_.clear();
   }
-  batch_.flush();
+  leaf_batch_.flush();
   return {};
 }
 
 }  // namespace
 
 GrowthResult grow_tree(const WeberPennParameters& parameters, Seed seed, const GrowthSettings& settings,
-                       Plant& plant) {
+                       Plant& plant, Lanes lanes) {
   plant.clear();
   plant.leaf_shape = static_cast<int>(parameters.leaf_shape);
   plant.blossom_shape = static_cast<int>(parameters.blossom_shape);
   plant.stems.first_knot.push_back(0);
   static thread_local GrowthMemory memory;
-  return Growth(parameters, settings, memory, plant).run(seed);
+  return Growth(parameters, settings, lanes, memory, plant).run(seed);
 }
 
 }  // namespace espalier

@@ -5,8 +5,12 @@
 
 namespace espalier {
 
+/// Whether vector instructions compute many stems and leaves at a time, or the plain formulas one by one: the
+/// same plant within the rounding of floats.
+enum class Lanes { many, one };
+
 /// Grows into `plant`. Stops, and reports by how much, where stems or leaves exceed the budget.
 GrowthResult grow_tree(const WeberPennParameters& parameters, Seed seed, const GrowthSettings& settings,
-                       Plant& plant);
+                       Plant& plant, Lanes lanes = Lanes::many);
 
 }  // namespace espalier

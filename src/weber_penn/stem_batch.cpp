@@ -6,6 +6,9 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
+
+#include "core/random_lanes-inl.h"
 #include "core/vector_math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,20 +25,15 @@ struct Numbers3 {
   Numbers x, y, z;
 
   void set(std::size_t i, Vec3 v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
-  Vec3 get(std::size_t i) const { return {x[i], y[i], z[i]}; }
   Vector3 load(std::size_t first) const {
     const Floats d;
     return {hn::Load(d, &x[first]), hn::Load(d, &y[first]), hn::Load(d, &z[first])};
   }
-  void store(std::size_t first, const Vector3& v) {
-    const Floats d;
-    hn::Store(v.x, d, &x[first]);
-    hn::Store(v.y, d, &y[first]);
-    hn::Store(v.z, d, &z[first]);
-  }
 };
 
-struct Frames {
+/// Where the stems of a batch start.
+struct Start {
+  alignas(64) std::array<std::uint64_t, kStems> keys;
   Numbers3 position, forward, right;
   Numbers segment_m;
 };
@@ -70,7 +68,12 @@ struct TurtleLanes {
   }
   void renormalize() {
     forward = normalized(forward, {set(0), set(0), set(1)});
-    right = normalized(right - forward * dot(forward, right), any_perpendicular(forward));
+    const Vector3 across = right - forward * dot(forward, right);
+    const Vector norm = hn::Sqrt(dot(across, across));
+    const auto has_direction = hn::Gt(norm, set(1e-12f));
+    right = across * hn::Div(set(1), norm);
+    if (!hn::AllTrue(Floats(), has_direction))
+      right = choose(has_direction, right, any_perpendicular(forward));
   }
   static Vector3 any_perpendicular(const Vector3& a) {
     const auto is_flat = hn::Lt(hn::Abs(a.z), set(0.9f));
@@ -81,13 +84,11 @@ struct TurtleLanes {
 
 /// Draws of the stems for one purpose at one segment end, times `most` / segments; zeros where nothing
 /// varies.
-Vector jitter(std::span<const GrowingStem> stems, Draw purpose, int at, float most, int segments,
-              std::size_t first) {
+Vector jitter(const std::uint64_t* keys, Draw purpose, int at, float most, int segments) {
   if (most == 0) return set(0);
-  Numbers drawn{};
-  for (std::size_t i = 0; i < stems.size(); ++i)
-    drawn[i] = draw_signed(stems[i].key, purpose, at) * most / segments;
-  return hn::Load(Floats(), &drawn[first]);
+  const Vector drawn =
+      signed_draws(keys, static_cast<std::uint32_t>(purpose), static_cast<std::uint32_t>(at));
+  return hn::Div(hn::Mul(drawn, set(most)), set(static_cast<float>(segments)));
 }
 
 /// The part of curve_angle_deg that all stems of the level share [stem_walk.cpp].
@@ -96,57 +97,76 @@ float shared_curve_deg(int level, int at, int segments, const WeberPennParameter
   return (2 * at <= segments ? p.curve[level] : p.curve_back[level]) * 2 / segments;
 }
 
+/// What the stems of the batch share.
+struct Level {
+  const WeberPennParameters& p;
+  int index, segments;
+  Vec3 tropism;
+};
+
 /// Turns the frames at segment end `at`.
-void turn(std::span<const GrowingStem> stems, int at, int segments, const WeberPennParameters& p,
-          Frames& frames) {
-  const int level = level_index(stems[0].level);
-  const Vec3 tropism{p.tropism_x, p.tropism_y, stems[0].level >= 2 ? p.tropism_z : 0};
-  for (std::size_t first = 0; first < stems.size(); first += hn::Lanes(Floats())) {
-    TurtleLanes turtle{frames.forward.load(first), frames.right.load(first)};
-    if (p.bend_v[level] != 0)
-      turtle.turn_left(jitter(stems, Draw::bend, at, p.bend_v[level], segments, first));
-    turtle.pitch_down(hn::Add(set(shared_curve_deg(level, at, segments, p)),
-                              jitter(stems, Draw::curve, at, p.curve_v[level], segments, first)));
-    if (!(tropism == Vec3{})) turtle.pull(tropism);
-    turtle.renormalize();
-    frames.forward.store(first, turtle.forward);
-    frames.right.store(first, turtle.right);
+void turn(TurtleLanes& turtle, const std::uint64_t* keys, int at, const Level& level) {
+  const WeberPennParameters& p = level.p;
+  const int segments = level.segments;
+  if (p.bend_v[level.index] != 0)
+    turtle.turn_left(jitter(keys, Draw::bend, at, p.bend_v[level.index], segments));
+  turtle.pitch_down(hn::Add(set(shared_curve_deg(level.index, at, segments, p)),
+                            jitter(keys, Draw::curve, at, p.curve_v[level.index], segments)));
+  if (!(level.tropism == Vec3{})) turtle.pull(level.tropism);
+  turtle.renormalize();
+}
+
+/// The tables of a vector of stems: column `entry` of three rows of each gets the lanes of v.
+void scatter(const Vector3& v, float* table, std::size_t stride, std::size_t stem_entries,
+             std::size_t count) {
+  const Floats d;
+  alignas(64) std::array<float, kMostLanes> lanes;
+  for (const Vector coordinate : {v.x, v.y, v.z}) {
+    hn::Store(coordinate, d, lanes.data());
+    for (std::size_t i = 0; i < count; ++i) table[i * stem_entries] = lanes[i];
+    table += stride;
   }
 }
 
-/// The segment that each stem grows next; its frame moves to the end.
-void advance(std::size_t count, int index, int segments, const Numbers3& heading, Frames& frames,
-             Segment* out) {
-  for (std::size_t i = 0; i < count; ++i, out += segments) {
-    const float third_m = frames.segment_m[i] / 3;
-    out->start_m = frames.position.get(i);
-    out->handle_out_m = out->start_m + heading.get(i) * third_m;
-    out->end.forward = frames.forward.get(i);
-    out->end.right = frames.right.get(i);
-    out->end_m = out->end.position_m = out->start_m + out->end.forward * frames.segment_m[i];
-    out->handle_in_m = out->end_m - out->end.forward * third_m;
-    out->z_start = static_cast<float>(index) / static_cast<float>(segments);
-    out->z_end = static_cast<float>(index + 1) / static_cast<float>(segments);
-    frames.position.set(i, out->end_m);
+/// Stems [first, first + lanes) of the batch.
+void walk_lanes(const Start& start, std::size_t first, std::size_t count, const Level& level, float* tables,
+                std::size_t stride) {
+  const std::size_t stem_entries = StemCurve::kRows * stride;
+  Vector3 position = start.position.load(first);
+  TurtleLanes turtle{start.forward.load(first), start.right.load(first)};
+  const Vector segment_m = hn::Load(Floats(), &start.segment_m[first]);
+  const auto put = [&](StemCurve::Row row, const Vector3& v, int entry) {
+    scatter(v, tables + static_cast<std::size_t>(row) * stride + entry, stride, stem_entries, count);
+  };
+  put(StemCurve::kHeading, turtle.forward, 0);
+  for (int k = 0; k < level.segments; ++k) {
+    put(StemCurve::kPoint, position, k);
+    put(StemCurve::kHeading, turtle.forward, k + 1);
+    put(StemCurve::kRight, turtle.right, k);
+    position = position + turtle.forward * segment_m;
+    if (k + 1 < level.segments) turn(turtle, &start.keys[first], k + 1, level);
   }
+  put(StemCurve::kPoint, position, level.segments);
 }
 
-/// out: segments of the first stem, then of the second, and so on.
-void walk_batch(std::span<const GrowingStem> stems, int segments, const WeberPennParameters& p,
-                Segment* out) {
-  Frames frames{};
+/// tables: of the first stem, then of the second, and so on.
+void walk_batch(std::span<const GrowingStem> stems, int segments, const WeberPennParameters& p, float* tables,
+                std::size_t stride) {
+  Start start{};
   for (std::size_t i = 0; i < stems.size(); ++i) {
-    frames.position.set(i, stems[i].turtle.position_m);
-    frames.forward.set(i, stems[i].turtle.forward);
-    frames.right.set(i, stems[i].turtle.right);
-    frames.segment_m[i] = stems[i].length_m / static_cast<float>(segments);
+    start.keys[i] = stems[i].key.value;
+    start.position.set(i, stems[i].turtle.position_m);
+    start.forward.set(i, stems[i].turtle.forward);
+    start.right.set(i, stems[i].turtle.right);
+    start.segment_m[i] = stems[i].length_m / static_cast<float>(segments);
   }
-  Numbers3 heading = frames.forward;
-  for (int index = 0; index < segments; ++index) {
-    advance(stems.size(), index, segments, heading, frames, out + index);
-    heading = frames.forward;
-    if (index + 1 < segments) turn(stems, index + 1, segments, p, frames);
-  }
+  const int depth = stems[0].level;
+  const Level level{
+      p, level_index(depth), segments, {p.tropism_x, p.tropism_y, depth >= 2 ? p.tropism_z : 0}};
+  const std::size_t lanes = hn::Lanes(Floats());
+  for (std::size_t first = 0; first < stems.size(); first += lanes)
+    walk_lanes(start, first, std::min(lanes, stems.size() - first), level,
+               tables + first * StemCurve::kRows * stride, stride);
 }
 
 }  // namespace
@@ -165,10 +185,29 @@ bool StemBatch::takes(int level, const WeberPennParameters& p) {
 }
 
 void StemBatch::walk(std::span<const GrowingStem> stems, const WeberPennParameters& p) {
-  const int segments = segment_count(p, stems[0].level);
-  per_stem_ = static_cast<std::size_t>(segments);
-  segments_.resize(per_stem_ * kMostStems);
-  HWY_DYNAMIC_DISPATCH(walk_batch)(stems, segments, p, segments_.data());
+  const int segments = espalier::segment_count(p, stems[0].level);
+  constexpr std::size_t kReadBeyond = 16;
+  const std::size_t stride = static_cast<std::size_t>(segments) + kReadBeyond,
+                    stem_entries = StemCurve::kRows * stride;
+  entries_.resize(stem_entries * kMostStems);
+  for (std::size_t i = 0; i < stems.size(); ++i)
+    curves_[i] = {segments, stems[i].length_m / static_cast<float>(segments), stride,
+                  entries_.data() + i * stem_entries};
+  HWY_DYNAMIC_DISPATCH(walk_batch)(stems, segments, p, entries_.data(), stride);
+}
+
+Segment StemBatch::segment(std::size_t stem, int index) const {
+  const StemCurve& curve = curves_[stem];
+  const float third_m = curve.segment_m / 3;
+  Segment segment;
+  segment.start_m = curve.point().at(index);
+  segment.handle_out_m = segment.start_m + curve.heading_at_start().at(index) * third_m;
+  segment.end = {curve.point().at(index + 1), curve.heading().at(index), curve.right().at(index)};
+  segment.end_m = segment.end.position_m;
+  segment.handle_in_m = segment.end_m - segment.end.forward * third_m;
+  segment.z_start = static_cast<float>(index) / static_cast<float>(curve.segments);
+  segment.z_end = static_cast<float>(index + 1) / static_cast<float>(curve.segments);
+  return segment;
 }
 
 }  // namespace espalier

@@ -1,5 +1,7 @@
 // Stems of one level that neither split nor wind are walked several at a time, one a lane of the vector
-// instructions: the same segments, bit for bit, as walk_stem gives (stem_walk.h). Metres and degrees.
+// instructions: the same segments, bit for bit, as walk_stem gives (stem_walk.h). What is kept of a stem is
+// a table with a row for each coordinate, an entry for each segment: a vector of places on the stem looks up
+// the segments that they are on. Metres and degrees.
 #pragma once
 #include <array>
 #include <span>
@@ -9,6 +11,35 @@
 
 namespace espalier {
 
+/// The curve of one stem. Segment k runs from knot k to knot k + 1, at a third of its length from both along
+/// the headings there: that of segment k - 1 (of segment 0 for the first) and its own.
+struct StemCurve {
+  enum Row { kPoint = 0, kHeading = 3, kRight = 6, kRows = 9 };
+
+  int segments = 1;
+  float segment_m = 0;
+  std::size_t stride = 0;  ///< of rows; two vectors more than there are segments can be read
+  const float* entries = nullptr;
+
+  struct Rows3 {
+    const float *x, *y, *z;
+    Vec3 at(int entry) const { return {x[entry], y[entry], z[entry]}; }
+  };
+  /// Of knots: where they are.
+  Rows3 point() const { return rows(kPoint, 0); }
+  /// Of segments: the heading at their start, and at their end.
+  Rows3 heading_at_start() const { return rows(kHeading, 0); }
+  Rows3 heading() const { return rows(kHeading, 1); }
+  /// Of segments: to the right of the heading at their end.
+  Rows3 right() const { return rows(kRight, 0); }
+
+ private:
+  Rows3 rows(Row first, std::size_t entry) const {
+    const float* const x = entries + static_cast<std::size_t>(first) * stride + entry;
+    return {x, x + stride, x + 2 * stride};
+  }
+};
+
 class StemBatch {
  public:
   static constexpr int kMostStems = 8;
@@ -16,16 +47,18 @@ class StemBatch {
   /// Whether stems of this level can be walked in batches.
   static bool takes(int level, const WeberPennParameters& parameters);
 
-  /// Walks 1 to kMostStems stems of one level from their bases; the segments of the batch before are gone.
+  /// Walks 1 to kMostStems stems of one level from their bases; the curves of the batch before are gone.
   void walk(std::span<const GrowingStem> stems, const WeberPennParameters& parameters);
 
-  std::span<const Segment> segments(std::size_t stem) const {
-    return {segments_.data() + stem * per_stem_, per_stem_};
-  }
+  int segment_count() const { return curves_.front().segments; }
+  const StemCurve& curve(std::size_t stem) const { return curves_[stem]; }
+
+  /// Segment `index` of a stem as walk_stem yields it.
+  Segment segment(std::size_t stem, int index) const;
 
  private:
-  std::size_t per_stem_ = 0;
-  std::vector<Segment> segments_;
+  std::array<StemCurve, kMostStems> curves_;
+  std::vector<float> entries_;
 };
 
 }  // namespace espalier

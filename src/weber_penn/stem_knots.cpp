@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace espalier {
 
@@ -32,34 +31,7 @@ void append_knot(Knots& knots, Vec3 point_m, Vec3 handle_m, float radius_m) {
   knots.radius_m.push_back(radius_m);
 }
 
-/// A stem whose segments are one piece each: their handles are its own.
-void append_plain_knots(const GrowingStem& stem, std::span<const Segment> segments,
-                        const WeberPennParameters& p, Knots& knots) {
-  const std::size_t first = knots.size(), count = segments.size();
-  for (std::vector<Vec3>* column : {&knots.point_m, &knots.handle_in_m, &knots.handle_out_m})
-    column->resize(first + count + 1);
-  knots.radius_m.resize(first + count + 1);
-  const auto mirrored = [](Vec3 handle_m, Vec3 point_m) { return point_m + (point_m - handle_m); };
-  const Segment &base = segments.front(), &tip = segments.back();
-  knots.handle_in_m[first] = mirrored(base.handle_out_m, base.start_m);
-  knots.handle_out_m[first + count] = mirrored(tip.handle_in_m, tip.end_m);
-  knots.point_m[first + count] = tip.end_m;
-  knots.radius_m[first + count] = stem_radius_m(stem, tip.z_end, p);
-  for (std::size_t i = 0; i < count; ++i) {
-    knots.point_m[first + i] = segments[i].start_m;
-    knots.handle_out_m[first + i] = segments[i].handle_out_m;
-    knots.handle_in_m[first + i + 1] = segments[i].handle_in_m;
-    knots.radius_m[first + i] = stem_radius_m(stem, segments[i].z_start, p);
-  }
-}
-
 }  // namespace
-
-void append_knots(const GrowingStem& stem, std::span<const Segment> segments, const WeberPennParameters& p,
-                  Knots& knots) {
-  if (pieces_per_segment(stem, p) == 1) return append_plain_knots(stem, segments, p, knots);
-  for (const Segment& segment : segments) append_knots(stem, segment, p, knots);
-}
 
 void append_knots(const GrowingStem& stem, const Segment& segment, const WeberPennParameters& p,
                   Knots& knots) {

@@ -1,8 +1,6 @@
 // The knots of a stem: segment ends, or a finer resampling where the radius needs it [CH §3.2.1 Branch
 // Radius].
 #pragma once
-#include <span>
-
 #include "plant/plant.h"
 #include "weber_penn/stem_walk.h"
 
@@ -11,9 +9,5 @@ namespace espalier {
 /// Appends the knots of one segment; the first segment of a stem brings its start as well.
 void append_knots(const GrowingStem& stem, const Segment& segment, const WeberPennParameters& parameters,
                   Knots& knots);
-
-/// The same for a whole stem that does not split.
-void append_knots(const GrowingStem& stem, std::span<const Segment> segments,
-                  const WeberPennParameters& parameters, Knots& knots);
 
 }  // namespace espalier

@@ -16,7 +16,7 @@ class BothWays : public StemVisitor {
       : p_(p),
         for_plain_(stem, ChildPlacer::Bears::leaves, p),
         for_batch_(stem, ChildPlacer::Bears::leaves, p),
-        batch_(p, batched) {}
+        batch_(p, memory_, batched) {}
 
   bool segment(const GrowingStem& stem, const Segment& segment) override {
     for_plain_.begin(stem, segment);
@@ -33,6 +33,7 @@ class BothWays : public StemVisitor {
  private:
   const WeberPennParameters& p_;
   ChildPlacer for_plain_, for_batch_;
+  ChildBatchMemory memory_;
   LeafBatch batch_;
 };
 
@@ -82,6 +83,27 @@ float largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
   return largest;
 }
 
+/// The leaves of the same stem, which does not split, all at once.
+Leaves of_whole_stem(const GrowingStem& stem, const WeberPennParameters& p) {
+  StemBatch stems;
+  stems.walk({&stem, 1}, p);
+  ChildBatchMemory memory;
+  Leaves leaves;
+  LeafBatch batch(p, memory, leaves);
+  batch.add(stem, stems, 0);
+  batch.flush();
+  return leaves;
+}
+
+void expect_same(const Leaves& batched, const Leaves& plain) {
+  RC_ASSERT(batched.position_m.size() == plain.position_m.size());
+  RC_ASSERT(batched.length_m == plain.length_m);
+  RC_ASSERT(batched.kind == plain.kind);
+  RC_ASSERT(largest_difference(batched.position_m, plain.position_m) < 2e-4f);
+  RC_ASSERT(largest_difference(batched.axis, plain.axis) < 2e-3f);
+  RC_ASSERT(largest_difference(batched.side, plain.side) < 2e-3f);
+}
+
 TEST(LeafBatch, PlacesWhatThePlainFormulasPlace) {
   EXPECT_TRUE(rc::check([] {
     const WeberPennParameters p = any_leaf_parameters();
@@ -90,12 +112,8 @@ TEST(LeafBatch, PlacesWhatThePlainFormulasPlace) {
     BothWays both(stem, p);
     walk_stem(stem, p, both);
     both.finish();
-    RC_ASSERT(both.batched.position_m.size() == both.plain.position_m.size());
-    RC_ASSERT(both.batched.length_m == both.plain.length_m);
-    RC_ASSERT(both.batched.kind == both.plain.kind);
-    RC_ASSERT(largest_difference(both.batched.position_m, both.plain.position_m) < 2e-4f);
-    RC_ASSERT(largest_difference(both.batched.axis, both.plain.axis) < 2e-3f);
-    RC_ASSERT(largest_difference(both.batched.side, both.plain.side) < 2e-3f);
+    expect_same(both.batched, both.plain);
+    expect_same(of_whole_stem(stem, p), both.plain);
   }));
 }
 
