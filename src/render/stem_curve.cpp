@@ -10,7 +10,6 @@ namespace espalier {
 
 namespace {
 
-constexpr int kMostCones = 64;
 constexpr float kLargestStemPx = 1e6f;  ///< beyond it, float pixels are too coarse to draw
 
 /// A point of a stem in the picture. Differences of depth are lengths along the view, in pixels at that
@@ -95,7 +94,7 @@ int cones_of(const StemCurve& c) {
     const float turn = 3 * bend / std::max(length_px(c.p3 - c.p0), 1e-3f);
     count = std::max(count, thickest * std::min(turn, 3.0f) / (2 * kStemTolerancePx));
   }
-  return cone_count(count);
+  return static_cast<int>(std::clamp(std::ceil(count), 1.0f, kMostCones));
 }
 
 float tilt_of(StemPoint along) {
@@ -128,10 +127,6 @@ void draw_curve(const StemCurve& curve, const StemProjection& projection, Mask& 
 }
 
 }  // namespace
-
-int cone_count(float cones) {
-  return static_cast<int>(std::clamp(std::ceil(cones), 1.0f, float{kMostCones}));
-}
 
 void StemPen::draw_segment(std::size_t k, Mask& mask) const {
   const StemProjection projection(camera_);

@@ -7,9 +7,7 @@
 namespace espalier {
 
 constexpr float kStemTolerancePx = 0.125f;  ///< of silhouettes of curves
-
-/// A whole number of cones, at least 1 and at most 64.
-int cone_count(float cones);
+constexpr float kMostCones = 64;            ///< of a segment
 
 /// Draws segments of a plant's stems, in any projection.
 class StemPen {
