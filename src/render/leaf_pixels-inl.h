@@ -11,7 +11,6 @@
 #include <array>
 #include <bit>
 #include <cstring>
-#include <span>
 
 #include "core/error.h"
 #include "core/vector_math-inl.h"
@@ -42,11 +41,17 @@ class LeafEdges {
     }
   }
 
-  /// LeafHalf::contains of each lane, for x of either sign.
+  bool has(std::size_t chain, std::size_t more) const { return chain_ == chain && count_ == chain + more; }
+
+  /// LeafHalf::contains of each lane, for x of either sign. With kChain > 0: only where
+  /// has(kChain, kMore).
+  template <std::size_t kChain = 0, std::size_t kMore = 0>
   hn::Mask<Floats> contain(Vector x, Vector y) const {
     x = hn::Abs(x);
-    auto inside = chain_contains(x, y);
-    for (const Edge& edge : std::span(edges_).subspan(chain_, count_ - chain_)) {
+    auto inside = chain_contains<kChain>(x, y);
+    const std::size_t chain = kChain == 0 ? chain_ : kChain, count = kChain == 0 ? count_ : kChain + kMore;
+    for (std::size_t i = chain; i < count; ++i) {
+      const Edge& edge = edges_[i];
       const Vector edge_x = hn::Add(of(edge.at_zero), hn::Mul(of(edge.slope), y));
       inside = hn::Xor(inside, hn::And(is_between(y, edge, edge), hn::Lt(x, edge_x)));
     }
@@ -65,14 +70,16 @@ class LeafEdges {
     return hn::And(hn::Ge(y, of(lowest.y0)), hn::Lt(y, of(highest.y1)));
   }
   /// y lies beside one edge of a chain at most.
+  template <std::size_t kChain>
   hn::Mask<Floats> chain_contains(Vector x, Vector y) const {
+    const std::size_t chain = kChain == 0 ? chain_ : kChain;
     Vector at_zero = of(edges_[0].at_zero), slope = of(edges_[0].slope);
-    for (const Edge& edge : std::span(edges_).subspan(1, chain_ - 1)) {
-      const auto is_above = hn::Ge(y, of(edge.y0));
-      at_zero = hn::IfThenElse(is_above, of(edge.at_zero), at_zero);
-      slope = hn::IfThenElse(is_above, of(edge.slope), slope);
+    for (std::size_t i = 1; i < chain; ++i) {
+      const auto is_above = hn::Ge(y, of(edges_[i].y0));
+      at_zero = hn::IfThenElse(is_above, of(edges_[i].at_zero), at_zero);
+      slope = hn::IfThenElse(is_above, of(edges_[i].slope), slope);
     }
-    return hn::And(is_between(y, edges_[0], edges_[chain_ - 1]),
+    return hn::And(is_between(y, edges_[0], edges_[chain - 1]),
                    hn::Lt(x, hn::Add(at_zero, hn::Mul(slope, y))));
   }
 
@@ -117,120 +124,6 @@ void draw_leaf(const LeafMap& map, const LeafEdges& edges, const PixelRectangle&
     }
   }
 }
-
-/// Some leaves of an orthographic picture: their maps and their rectangles.
-struct LeafColumns {
-  static constexpr std::size_t kMost = 64;
-  template <typename T>
-  using Column = std::array<T, kMost>;
-  alignas(64) Column<float> x{}, x_by_column{}, x_by_row{}, y{}, y_by_column{}, y_by_row{};
-  alignas(64) Column<std::int32_t> begin_x, end_x, begin_y, end_y;
-
-  LeafMap map(std::size_t i) const {
-    return {{x[i], x_by_column[i], x_by_row[i]}, {y[i], y_by_column[i], y_by_row[i]}, {1, 0, 0}};
-  }
-  PixelRectangle box(std::size_t i) const { return {begin_x[i], end_x[i], begin_y[i], end_y[i]}; }
-};
-
-/// Small leaves as tiles of 4 × 2 pixels, those that are all set already left out. Neither taking a leaf nor
-/// drawing a tile has a branch that depends on the picture: crowns make those hard to predict.
-class TileQueue {
- public:
-  static constexpr int kWidestPx = 8;
-
-  explicit TileQueue(Mask& mask)
-      : words_(mask.words().data()), words_per_row_(mask.words_per_row()), last_row_(mask.height_px() - 1) {}
-
-  /// The pixels not set yet of the first 4 × 4 pixels of the rectangles of leaves [at, at + lanes): bit
-  /// 4·row + column of each number.
-  void unset_of_first_pixels(const LeafColumns& leaves, std::size_t at, std::int32_t* unset) const {
-    static_assert(std::endian::native == std::endian::little);
-    const hn::RebindToSigned<Floats> di;
-    const auto load = [&](const auto& column) { return hn::Load(di, &column[at]); };
-    const int row_bytes = 8 * words_per_row_;
-    const auto x = load(leaves.begin_x), y = load(leaves.begin_y), most = hn::Set(di, kWidth);
-    const auto width = hn::Min(hn::Sub(load(leaves.end_x), x), most),
-               height = hn::Min(hn::Sub(load(leaves.end_y), y), most);
-    const auto byte = hn::Min(hn::ShiftRight<3>(x), hn::Set(di, row_bytes - 4)),
-               shift = hn::Sub(x, hn::ShiftLeft<3>(byte));
-    auto set = hn::Zero(di);
-    for (int row = 0; row < 2 * kHeight; ++row) {
-      const auto line = hn::Min(hn::Add(y, hn::Set(di, row)), hn::Set(di, last_row_));
-      const auto offset = hn::Add(hn::Mul(line, hn::Set(di, row_bytes)), byte);
-      const auto bits = hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(words_), offset);
-      set = hn::Or(set, hn::ShiftLeftSame(hn::And(hn::Shr(bits, shift), hn::Set(di, 15)), kWidth * row));
-    }
-    const auto one = hn::Set(di, 1), rows = hn::Sub(hn::Shl(one, hn::ShiftLeft<2>(height)), one),
-               columns = hn::Mul(hn::Sub(hn::Shl(one, width), one), hn::Set(di, 0x1111));
-    hn::StoreU(hn::AndNot(set, hn::And(rows, columns)), di, unset);
-  }
-
-  /// Takes leaf i, whose rectangle is at most kWidestPx on a side, or empty; `unset` as above.
-  void add(const PixelRectangle& box, std::int32_t unset, std::size_t i) {
-    append(i, 0, 0, unset & 255);
-    append(i, 0, kHeight, unset >> 8);
-    const int width = box.end_x - box.begin_x, height = box.end_y - box.begin_y;
-    if (std::max(width, height) <= kWidth) return;
-    for (int row = 0; row < height; row += kHeight)
-      for (int column = row < 2 * kHeight ? kWidth : 0; column < width; column += kWidth)
-        append(i, column, row, bits_inside(width - column) & (height - row > 1 ? 0xff : 0xf));
-  }
-
-  /// Sets the pixels of all tiles that are inside of their leaves, and empties the queue.
-  void draw(const LeafColumns& leaves, const LeafEdges& edges) {
-    for (const Tile& tile : std::span(tiles_).first(size_)) {
-      const std::uint32_t inside = inside_bits(leaves, tile, edges) & tile.unset;
-      const int x = leaves.begin_x[tile.leaf] + tile.column, y = leaves.begin_y[tile.leaf] + tile.row;
-      std::uint64_t* const row = words_ + std::ptrdiff_t{y} * words_per_row_;
-      set_bits(row, x, inside & 15);
-      set_bits(tile.unset > 15 ? row + words_per_row_ : row, x, inside >> kWidth);
-    }
-    size_ = 0;
-  }
-
- private:
-  static constexpr int kWidth = 4, kHeight = 2;
-
-  /// Its first pixel, counted from that of the leaf's rectangle; bit 4·row + column for each pixel.
-  struct Tile {
-    std::uint8_t leaf, column, row, unset;
-  };
-
-  /// Of both rows of a tile, the first `width` pixels.
-  static int bits_inside(int width) { return 0x11 * ((1 << std::min(width, kWidth)) - 1); }
-
-  void append(std::size_t leaf, int column, int row, int unset) {
-    tiles_[size_] = {static_cast<std::uint8_t>(leaf), static_cast<std::uint8_t>(column),
-                     static_cast<std::uint8_t>(row), static_cast<std::uint8_t>(unset)};
-    size_ += unset != 0;
-  }
-
-  static std::uint32_t inside_bits(const LeafColumns& leaves, const Tile& tile, const LeafEdges& edges) {
-    alignas(64) static constexpr float kColumns[][kMostLanes] = {{0, 1, 2, 3, 0, 1, 2, 3},
-                                                                 {4, 5, 6, 7, 4, 5, 6, 7}};
-    alignas(64) static constexpr float kRows[][kMostLanes] = {{0, 0, 0, 0, 1, 1, 1, 1},
-                                                              {2, 2, 2, 2, 3, 3, 3, 3},
-                                                              {4, 4, 4, 4, 5, 5, 5, 5},
-                                                              {6, 6, 6, 6, 7, 7, 7, 7}};
-    const std::size_t i = tile.leaf;
-    std::uint32_t bits = 0;
-    for (std::size_t pixel = 0; pixel < kMostLanes; pixel += hn::Lanes(Floats())) {
-      const Vector column = hn::Load(Floats(), kColumns[tile.column / kWidth] + pixel),
-                   row = hn::Load(Floats(), kRows[tile.row / kHeight] + pixel);
-      const Vector x = hn::Add(hn::Add(set(leaves.x[i]), hn::Mul(column, set(leaves.x_by_column[i]))),
-                               hn::Mul(row, set(leaves.x_by_row[i])));
-      const Vector y = hn::Add(hn::Add(set(leaves.y[i]), hn::Mul(column, set(leaves.y_by_column[i]))),
-                               hn::Mul(row, set(leaves.y_by_row[i])));
-      bits |= static_cast<std::uint32_t>(bits_of(edges.contain(x, y))) << pixel;
-    }
-    return bits;
-  }
-
-  std::uint64_t* words_;
-  int words_per_row_, last_row_;
-  std::size_t size_ = 0;
-  std::array<Tile, LeafColumns::kMost * kWidestPx * kWidestPx / (kWidth * kHeight) + 1> tiles_;
-};
 
 }  // namespace
 }  // namespace HWY_NAMESPACE

@@ -14,8 +14,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/leaf_pixels-inl.h"
-#include "render/span_lanes-inl.h"
+#include "render/leaf_tiles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace espalier {
@@ -35,21 +34,23 @@ Vector along(const Vector3& v, Vec3 direction) {
                  hn::Mul(v.z, hn::Set(d, direction.z)));
 }
 
-/// Where a batch's numbers begin in the arrays of leaves.
+/// Where a vector's numbers begin in the arrays of leaves.
 struct LeafRows {
   const Vec3 *position_m, *axis, *side;
   const float *length_m, *width_m;
+  const LeafKind* kind;
 };
 
 LeafRows rows_from(const Leaves& leaves, std::size_t first) {
-  return {&leaves.position_m[first], &leaves.axis[first], &leaves.side[first], &leaves.length_m[first],
-          &leaves.width_m[first]};
+  return {&leaves.position_m[first], &leaves.axis[first],    &leaves.side[first],
+          &leaves.length_m[first],   &leaves.width_m[first], &leaves.kind[first]};
 }
 
-/// A copy of the last leaves, for a batch that would read beyond the arrays. Leaves of size 0 fill it up.
+/// A copy of the last leaves, for a vector that would read beyond the arrays. Leaves of size 0 fill it up.
 struct LastRows {
   Vec3 position_m[kMostLanes], axis[kMostLanes], side[kMostLanes];
   float length_m[kMostLanes] = {}, width_m[kMostLanes] = {};
+  LeafKind kind[kMostLanes] = {};
 
   LastRows(const Leaves& leaves, std::size_t first) {
     for (std::size_t i = 0; first + i < leaves.size(); ++i) {
@@ -58,84 +59,117 @@ struct LastRows {
       side[i] = leaves.side[first + i];
       length_m[i] = leaves.length_m[first + i];
       width_m[i] = leaves.width_m[first + i];
+      kind[i] = leaves.kind[first + i];
     }
   }
-  LeafRows rows() const { return {position_m, axis, side, length_m, width_m}; }
+  LeafRows rows() const { return {position_m, axis, side, length_m, width_m, kind}; }
 };
 
-/// Inverts (column, row) = base + x·side + y·axis for a vector of leaves, columns [at, …). A leaf seen on
-/// edge gets coordinates that are not numbers.
-void prepare(const LeafRows& leaves, const Camera& camera, float half_width, const Mask& mask,
-             LeafColumns& columns, std::size_t at) {
-  const Floats d;
-  const Vec3 right = camera.right * (1 / camera.metres_per_px),
-             down = camera.up * (-1 / camera.metres_per_px);
-  const Vec3 eye = camera.position_m;
-  const Vector3 position = load3(leaves.position_m), axis = load3(leaves.axis), side = load3(leaves.side);
-  const Vector length_m = hn::LoadU(d, leaves.length_m), width_m = hn::LoadU(d, leaves.width_m);
-  const Vector base_x = hn::Add(along(position, right), hn::Set(d, camera.center_x_px - dot(eye, right)));
-  const Vector base_y = hn::Add(along(position, down), hn::Set(d, camera.center_y_px - dot(eye, down)));
-  const Vector axis_x = hn::Mul(along(axis, right), length_m), axis_y = hn::Mul(along(axis, down), length_m);
-  const Vector side_x = hn::Mul(along(side, right), width_m), side_y = hn::Mul(along(side, down), width_m);
-  const Vector inverse = hn::Div(hn::Set(d, 1.0f), hn::Sub(hn::Mul(side_x, axis_y), hn::Mul(side_y, axis_x)));
-  const Vector x_by_column = hn::Mul(axis_y, inverse), x_by_row = hn::Neg(hn::Mul(axis_x, inverse));
-  const Vector y_by_column = hn::Neg(hn::Mul(side_y, inverse)), y_by_row = hn::Mul(side_x, inverse);
-  const Vector half = hn::Set(d, half_width);
-  const Vector reach_x = hn::Mul(hn::Abs(side_x), half), reach_y = hn::Mul(hn::Abs(side_y), half);
-  const Vector zero = hn::Zero(d);
-  store_run(hn::Sub(hn::Add(base_x, hn::Min(axis_x, zero)), reach_x),
-            hn::Add(hn::Add(base_x, hn::Max(axis_x, zero)), reach_x), mask.width_px(), &columns.begin_x[at],
-            &columns.end_x[at]);
-  store_run(hn::Sub(hn::Add(base_y, hn::Min(axis_y, zero)), reach_y),
-            hn::Add(hn::Add(base_y, hn::Max(axis_y, zero)), reach_y), mask.height_px(), &columns.begin_y[at],
-            &columns.end_y[at]);
-  const auto from_first = [&](Vector base, const auto& first) {
-    const auto pixel = hn::Load(hn::RebindToSigned<Floats>(), &first[at]);
-    return hn::Sub(hn::Add(hn::ConvertTo(d, pixel), set(0.5f)), base);
-  };
-  const Vector column = from_first(base_x, columns.begin_x), row = from_first(base_y, columns.begin_y);
-  hn::Store(x_by_column, d, &columns.x_by_column[at]);
-  hn::Store(x_by_row, d, &columns.x_by_row[at]);
-  hn::Store(y_by_column, d, &columns.y_by_column[at]);
-  hn::Store(y_by_row, d, &columns.y_by_row[at]);
-  hn::Store(hn::Add(hn::Mul(column, x_by_column), hn::Mul(row, x_by_row)), d, &columns.x[at]);
-  hn::Store(hn::Add(hn::Mul(column, y_by_column), hn::Mul(row, y_by_row)), d, &columns.y[at]);
-}
+/// What turns leaves into pixels.
+class LeafProjection {
+ public:
+  LeafProjection(const Camera& camera, float half_width, const Mask& mask)
+      : right_(camera.right * (1 / camera.metres_per_px)),
+        down_(camera.up * (-1 / camera.metres_per_px)),
+        x_(camera.center_x_px - dot(camera.position_m, right_)),
+        y_(camera.center_y_px - dot(camera.position_m, down_)),
+        half_width_(half_width),
+        width_px_(mask.width_px()),
+        height_px_(mask.height_px()) {}
 
-/// Leaves [first, first + kMost) or to the end; how many.
-std::size_t prepare_some(const Leaves& leaves, std::size_t first, const Camera& camera, float half_width,
-                         const Mask& mask, LeafColumns& columns) {
-  const std::size_t count = std::min(LeafColumns::kMost, leaves.size() - first), lanes = hn::Lanes(Floats());
-  for (std::size_t at = 0; at < count; at += lanes) {
-    if (at + lanes <= count)
-      prepare(rows_from(leaves, first + at), camera, half_width, mask, columns, at);
-    else
-      prepare(LastRows(leaves, first + at).rows(), camera, half_width, mask, columns, at);
+  /// Inverts (column, row) = base + x·side + y·axis for a vector of leaves. A leaf seen on edge gets
+  /// coordinates that are not numbers, and blossom an empty rectangle.
+  LeafLanes lanes(const LeafRows& leaves) const {
+    const Floats d;
+    const Vector3 position = load3(leaves.position_m), axis = load3(leaves.axis), side = load3(leaves.side);
+    const Vector length_m = hn::LoadU(d, leaves.length_m), width_m = hn::LoadU(d, leaves.width_m);
+    const Vector base_x = hn::Add(along(position, right_), set(x_)),
+                 base_y = hn::Add(along(position, down_), set(y_));
+    const Vector axis_x = hn::Mul(along(axis, right_), length_m),
+                 axis_y = hn::Mul(along(axis, down_), length_m);
+    const Vector side_x = hn::Mul(along(side, right_), width_m),
+                 side_y = hn::Mul(along(side, down_), width_m);
+    const Vector inverse = hn::Div(set(1), hn::Sub(hn::Mul(side_x, axis_y), hn::Mul(side_y, axis_x)));
+    LeafLanes lanes;
+    lanes.columns = run(base_x, axis_x, side_x, width_px_);
+    lanes.rows = only_leaves(run(base_y, axis_y, side_y, height_px_), leaves.kind);
+    const Vector column = from_first(lanes.columns, base_x), row = from_first(lanes.rows, base_y);
+    lanes.x = linear(hn::Mul(axis_y, inverse), hn::Neg(hn::Mul(axis_x, inverse)), column, row);
+    lanes.y = linear(hn::Neg(hn::Mul(side_y, inverse)), hn::Mul(side_x, inverse), column, row);
+    return lanes;
   }
-  return count;
+
+ private:
+  /// The pixels that a leaf's rectangle spans.
+  RunLanes run(Vector base, Vector axis, Vector side, int size) const {
+    const Vector reach = hn::Mul(hn::Abs(side), set(half_width_)), zero = hn::Zero(Floats());
+    return run_lanes(hn::Sub(hn::Add(base, hn::Min(axis, zero)), reach),
+                     hn::Add(hn::Add(base, hn::Max(axis, zero)), reach), size);
+  }
+
+  static RunLanes only_leaves(const RunLanes& rows, const LeafKind* kind) {
+    static_assert(LeafKind::leaf == LeafKind{0});
+    const Integers di;
+    const hn::Rebind<std::uint8_t, Integers> d8;
+    const auto kinds = hn::PromoteTo(di, hn::LoadU(d8, reinterpret_cast<const std::uint8_t*>(kind)));
+    return {rows.begin, hn::IfThenElse(hn::Eq(kinds, hn::Zero(di)), rows.end, rows.begin)};
+  }
+
+  /// From the leaf's base to the centre of its first pixel.
+  static Vector from_first(const RunLanes& run, Vector base) {
+    return hn::Sub(hn::Add(hn::ConvertTo(Floats(), run.begin), set(0.5f)), base);
+  }
+
+  static LinearLanes linear(Vector by_column, Vector by_row, Vector column, Vector row) {
+    return {hn::Add(hn::Mul(column, by_column), hn::Mul(row, by_row)), by_column, by_row};
+  }
+
+  Vec3 right_, down_;
+  float x_, y_, half_width_;
+  int width_px_, height_px_;
+};
+
+/// One by one, those leaves that are too large to be tiles.
+void draw_large(const LeafLanes& leaves, const LeafEdges& edges, Mask& mask) {
+  const Integers di;
+  alignas(64) std::array<std::array<float, kMostLanes>, 6> maps;
+  alignas(64) std::array<std::array<std::int32_t, kMostLanes>, 4> boxes;
+  std::size_t i = 0;
+  for (const LinearLanes& map : {leaves.x, leaves.y})
+    for (const Vector number : {map.at_first, map.by_column, map.by_row})
+      hn::Store(number, Floats(), maps[i++].data());
+  i = 0;
+  for (const RunLanes& run : {leaves.columns, leaves.rows})
+    for (const IntegerLanes pixel : {run.begin, run.end}) hn::Store(pixel, di, boxes[i++].data());
+  for (std::size_t lane = 0; lane < hn::Lanes(di); ++lane) {
+    const PixelRectangle box{boxes[0][lane], boxes[1][lane], boxes[2][lane], boxes[3][lane]};
+    if (std::max(box.end_x - box.begin_x, box.end_y - box.begin_y) <= LeafTiles::kWidestPx) continue;
+    if (box.is_empty() || is_covered(mask, box)) continue;
+    draw_leaf<false>({{maps[0][lane], maps[1][lane], maps[2][lane]},
+                      {maps[3][lane], maps[4][lane], maps[5][lane]},
+                      {1, 0, 0}},
+                     edges, box, mask);
+  }
 }
 
 void draw_orthographic(const Plant& plant, const Camera& camera, Mask& mask) {
+  const Integers di;
   const Leaves& leaves = plant.leaves;
   const LeafHalf& half = leaf_half(plant.leaf_shape);
   const LeafEdges edges(half);
-  LeafColumns columns;
-  TileQueue queue(mask);
-  std::array<std::int32_t, LeafColumns::kMost> unset;
-  for (std::size_t first = 0; first < leaves.size(); first += LeafColumns::kMost) {
-    const std::size_t count = prepare_some(leaves, first, camera, half.half_width, mask, columns);
-    for (std::size_t at = 0; at < count; at += hn::Lanes(Floats()))
-      queue.unset_of_first_pixels(columns, at, &unset[at]);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (leaves.kind[first + i] != LeafKind::leaf) continue;
-      const PixelRectangle box = columns.box(i);
-      if (std::max(box.end_x - box.begin_x, box.end_y - box.begin_y) <= TileQueue::kWidestPx)
-        queue.add(box, unset[i], i);
-      else if (!is_covered(mask, box))
-        draw_leaf<false>(columns.map(i), edges, box, mask);
-    }
-    queue.draw(columns, edges);
+  const LeafProjection projection(camera, half.half_width, mask);
+  LeafTiles tiles(edges, mask);
+  const std::size_t lanes = hn::Lanes(Floats());
+  for (std::size_t first = 0; first < leaves.size(); first += lanes) {
+    const LeafLanes some = first + lanes <= leaves.size() ? projection.lanes(rows_from(leaves, first))
+                                                          : projection.lanes(LastRows(leaves, first).rows());
+    tiles.add(some);
+    const auto width = hn::Sub(some.columns.end, some.columns.begin),
+               height = hn::Sub(some.rows.end, some.rows.begin);
+    if (!hn::AllFalse(di, hn::Gt(hn::Max(width, height), hn::Set(di, LeafTiles::kWidestPx))))
+      draw_large(some, edges, mask);
   }
+  tiles.draw();
 }
 
 /// v·(direction of the ray through a pixel), which is linear in its column and row, counted from `first`.
