@@ -43,7 +43,7 @@ constexpr std::uint64_t before_mixing(RandomKey key, std::uint32_t purpose, std:
 
 /// uniform_signed of mixed bits; `words(i)`: what is mixed for lanes [i, i + Lanes(Words())).
 template <typename WordsFrom>
-Vector signed_from(const WordsFrom& words) {
+HWY_INLINE Vector signed_from(const WordsFrom& words) {
   static_assert(std::endian::native == std::endian::little);
   const Words d;
   const hn::RebindToUnsigned<Floats> d32;
@@ -58,14 +58,14 @@ Vector signed_from(const WordsFrom& words) {
 }
 
 /// uniform_signed(key, purpose, first + lane).
-inline Vector signed_draws(RandomKey key, std::uint32_t purpose, std::uint32_t first) {
+HWY_INLINE Vector signed_draws(RandomKey key, std::uint32_t purpose, std::uint32_t first) {
   const Words d;
   const auto start = hn::Set(d, before_mixing(key, purpose, first));
   return signed_from([&](std::size_t i) { return hn::Add(start, hn::Load(d, &kIndexSteps[i])); });
 }
 
 /// uniform_signed(keys[lane], purpose, index), for aligned keys.
-inline Vector signed_draws(const std::uint64_t* keys, std::uint32_t purpose, std::uint32_t index) {
+HWY_INLINE Vector signed_draws(const std::uint64_t* keys, std::uint32_t purpose, std::uint32_t index) {
   const Words d;
   const auto place = hn::Set(d, before_mixing({0}, purpose, index));
   return signed_from([&](std::size_t i) { return hn::Add(hn::Load(d, keys + i), place); });

@@ -50,7 +50,7 @@ class LeafTiles {
         last_row_(mask.height_px() - 1) {}
 
   /// Takes those of the leaves that are at most kWidestPx wide and high.
-  void add(const LeafLanes& leaves) {
+  HWY_INLINE void add(const LeafLanes& leaves) {
     const Integers di;
     const auto width = hn::Sub(leaves.columns.end, leaves.columns.begin),
                height = hn::Sub(leaves.rows.end, leaves.rows.begin);

@@ -79,7 +79,7 @@ class LeafProjection {
 
   /// Inverts (column, row) = base + x·side + y·axis for a vector of leaves. A leaf seen on edge gets
   /// coordinates that are not numbers, and blossom an empty rectangle.
-  LeafLanes lanes(const LeafRows& leaves) const {
+  HWY_INLINE LeafLanes lanes(const LeafRows& leaves) const {
     const Floats d;
     const Vector3 position = load3(leaves.position_m), axis = load3(leaves.axis), side = load3(leaves.side);
     const Vector length_m = hn::LoadU(d, leaves.length_m), width_m = hn::LoadU(d, leaves.width_m);

@@ -206,7 +206,9 @@ void draw_orthographic(const Plant& plant, const Camera& camera, Mask& mask) {
         continue;
       }
       const int cones = curves.cones[k - first];
-      if (cones == 0 || is_covered(mask, curves.box(k - first))) continue;
+      if (cones == 0) continue;
+      const PixelRectangle box = curves.box(k - first);
+      if (mask.get(box.begin_x, box.begin_y) && is_covered(mask, box)) continue;
       queue.add(curves, k - first, cones, queued_to == k && k > plant.stems.first_knot[stem]);
       queued_to = k + 1;
     }

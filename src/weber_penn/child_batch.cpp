@@ -48,7 +48,8 @@ class Rows {
         child_level_(level_index(stem.level + 1)) {}
 
   /// Children `index` … at z along the stem.
-  void put(const OnCurve& curve, Vector z, Vector roll_deg, float growth, int index, std::size_t at) {
+  HWY_INLINE void put(const OnCurve& curve, Vector z, Vector roll_deg, float growth, int index,
+                      std::size_t at) {
     const Floats d;
     store(curve.point, children_.point, at);
     store(curve.tangent, children_.tangent, at);
@@ -63,7 +64,7 @@ class Rows {
 
  private:
   /// ChildPlacer::down_angle_deg.
-  Vector down_deg(Vector z, int index) const {
+  HWY_INLINE Vector down_deg(Vector z, int index) const {
     const float angle = p_.down_angle[child_level_], variation = p_.down_angle_v[child_level_];
     if (variation == 0) return set(angle);
     const Vector jitter = signed_draws(stem_.key, static_cast<std::uint32_t>(Draw::child_down_angle),
@@ -92,7 +93,7 @@ Vector in_unit(Vector t) { return hn::Min(hn::Max(t, set(0)), set(1)); }
 Vector3 set3(Vec3 v) { return {set(v.x), set(v.y), set(v.z)}; }
 
 /// Points of the segment's curve, and tangents.
-OnCurve on_segment(const Segment& segment, Vector t) {
+HWY_INLINE OnCurve on_segment(const Segment& segment, Vector t) {
   const Vector3 a = set3(segment.start_m), b = set3(segment.handle_out_m), c = set3(segment.handle_in_m),
                 e = set3(segment.end_m);
   const Vector u = hn::Sub(set(1), t), uu = hn::Mul(u, u), tt = hn::Mul(t, t), ut = hn::Mul(u, t);
@@ -145,7 +146,7 @@ class SegmentLookup {
 
 /// The cubic curve through handles at a third of the segment's length along h and f, its headings at start
 /// and end: its point is start + length·(h·t(1−t)² + f·t²(2−t)), its tangent h·(1−t)(1−3t) + f·t(4−3t).
-OnCurve on_curve(const StemCurve& curve, const SegmentLookup& lookup, Vector t) {
+HWY_INLINE OnCurve on_curve(const StemCurve& curve, const SegmentLookup& lookup, Vector t) {
   const Vector u = hn::Sub(set(1), t), ut = hn::Mul(u, t), three_t = hn::Mul(set(3), t);
   const Vector length_m = set(curve.segment_m);
   const Vector along_h = hn::Mul(length_m, hn::Mul(ut, u)),

@@ -11,6 +11,17 @@
 #include "weber_penn/leaf_placement.h"
 #include "weber_penn/waiting_children-inl.h"
 
+#ifndef ESPALIER_WEBER_PENN_LEAF_ROWS
+#define ESPALIER_WEBER_PENN_LEAF_ROWS
+namespace espalier {
+/// Where leaves go in the plant.
+struct LeafRows {
+  Vec3 *position_m, *axis, *side;
+};
+constexpr std::size_t kMostBeyond = 8;  ///< rows written beyond the last leaf
+}  // namespace espalier
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace espalier {
 namespace HWY_NAMESPACE {
@@ -18,18 +29,15 @@ namespace {
 
 void store(const Vector3& v, Vec3* to) { hn::StoreInterleaved3(v.x, v.y, v.z, Floats(), &to->x); }
 
-/// Where leaves go in the plant.
-struct LeafRows {
-  Vec3 *position_m, *axis, *side;
+struct LeafVectors {
+  Vector3 position, axis, side;
 };
 
-/// Turns the leaves from their frames.
-void turn_leaves(const WaitingChildren& leaves, std::size_t at, const LeafRows& to) {
+/// Turns leaves from their frames.
+HWY_INLINE LeafVectors turned_leaves(const WaitingChildren& leaves, std::size_t at) {
   const TurnedChildren leaf = turned(leaves, at);
   const Vector radius_m = hn::Load(Floats(), &leaves.parent_radius_m[at]);
-  store(load(leaves.point, at) + leaf.outward * radius_m, to.position_m + at);
-  store(leaf.heading, to.axis + at);
-  store(leaf.right, to.side + at);
+  return {load(leaves.point, at) + leaf.outward * radius_m, leaf.heading, leaf.right};
 }
 
 Vector3 turned_about_z(const Vector3& v, const SineCosine& turn) {
@@ -37,33 +45,41 @@ Vector3 turned_about_z(const Vector3& v, const SineCosine& turn) {
           hn::Add(hn::Mul(v.x, turn.sine), hn::Mul(v.y, turn.cosine)), v.z};
 }
 
-Vector3 load(const Vec3* from) {
-  Vector3 v;
-  hn::LoadInterleaved3(Floats(), &from->x, v.x, v.y, v.z);
-  return v;
+/// Turns leaves about z by a share of the angle between their normal and the way out [leaf_placement.cpp].
+HWY_INLINE void bend_outwards(LeafVectors& leaf, float leaf_bend) {
+  const Vector3 normal = cross(leaf.side, leaf.axis);
+  const Vector sine = hn::Sub(hn::Mul(normal.x, leaf.position.y), hn::Mul(normal.y, leaf.position.x));
+  const Vector cosine = hn::Add(hn::Mul(normal.x, leaf.position.x), hn::Mul(normal.y, leaf.position.y));
+  const SineCosine turn = sine_cosine_deg(hn::Mul(set(leaf_bend), arc_tangent2_deg(sine, cosine)));
+  leaf.axis = turned_about_z(leaf.axis, turn);
+  leaf.side = turned_about_z(leaf.side, turn);
 }
 
-/// Turns leaves about z by a share of the angle between their normal and the way out [leaf_placement.cpp].
-void bend_outwards(const LeafRows& leaves, std::size_t at, float leaf_bend) {
-  const Vector3 position = load(leaves.position_m + at), axis = load(leaves.axis + at),
-                side = load(leaves.side + at);
-  const Vector3 normal = cross(side, axis);
-  const Vector sine = hn::Sub(hn::Mul(normal.x, position.y), hn::Mul(normal.y, position.x));
-  const Vector cosine = hn::Add(hn::Mul(normal.x, position.x), hn::Mul(normal.y, position.y));
-  const SineCosine turn = sine_cosine_deg(hn::Mul(set(leaf_bend), arc_tangent2_deg(sine, cosine)));
-  store(turned_about_z(axis, turn), leaves.axis + at);
-  store(turned_about_z(side, turn), leaves.side + at);
+HWY_INLINE void place(const LeafVectors& leaf, std::size_t at, const LeafRows& to) {
+  store(leaf.position, to.position_m + at);
+  store(leaf.axis, to.axis + at);
+  store(leaf.side, to.side + at);
 }
 
 /// Writes whole vectors: up to 7 rows more than there are leaves.
-void place_all(const WeberPennParameters& p, WaitingChildren& leaves, Vec3* position_m, Vec3* axis,
-               Vec3* side) {
-  const LeafRows to{position_m, axis, side};
+void place_all(const WeberPennParameters& p, WaitingChildren& leaves, const LeafRows& to) {
   const auto count = static_cast<std::size_t>(leaves.count), lanes = hn::Lanes(Floats());
   for (std::size_t at = 0; at < count; at += lanes) make_frames(leaves, at);
-  for (std::size_t at = 0; at < count; at += lanes) turn_leaves(leaves, at, to);
-  if (p.leaf_bend > 0)
-    for (std::size_t at = 0; at < count; at += lanes) bend_outwards(to, at, p.leaf_bend);
+  if (p.leaf_bend <= 0) {
+    for (std::size_t at = 0; at < count; at += lanes) place(turned_leaves(leaves, at), at, to);
+    return;
+  }
+  for (std::size_t at = 0; at < count; at += lanes) {
+    const LeafVectors leaf = turned_leaves(leaves, at);
+    store(leaf.position, leaves.point, at);
+    store(leaf.axis, leaves.tangent, at);
+    store(leaf.side, leaves.right, at);
+  }
+  for (std::size_t at = 0; at < count; at += lanes) {
+    LeafVectors leaf{load(leaves.point, at), load(leaves.tangent, at), load(leaves.right, at)};
+    bend_outwards(leaf, p.leaf_bend);
+    place(leaf, at, to);
+  }
 }
 
 }  // namespace
@@ -92,27 +108,35 @@ void LeafBatch::note(const GrowingStem& stem, int first_row, int count) {
 
 void LeafBatch::append_sizes() {
   const std::size_t before = leaves_.length_m.size(), count = static_cast<std::size_t>(waiting_.count);
-  if (p_.blossom_rate > 0)
-    leaves_.kind.insert(leaves_.kind.end(), kind_.begin(), kind_.begin() + waiting_.count);
-  else
-    leaves_.kind.resize(before + count, LeafKind::leaf);
   leaves_.length_m.resize(before + count);
   leaves_.width_m.resize(before + count);
+  float *const length_m = &leaves_.length_m[before], *const width_m = &leaves_.width_m[before];
+  if (p_.blossom_rate <= 0) {
+    leaves_.kind.resize(before + count, LeafKind::leaf);
+    for (std::size_t i = 0; i < count; ++i) length_m[i] = p_.leaf_scale * waiting_.growth[i];
+    for (std::size_t i = 0; i < count; ++i) width_m[i] = length_m[i] * p_.leaf_scale_x;
+    return;
+  }
+  leaves_.kind.insert(leaves_.kind.end(), kind_.begin(), kind_.begin() + waiting_.count);
   for (std::size_t i = 0; i < count; ++i) {
-    const bool is_leaf = leaves_.kind[before + i] == LeafKind::leaf;
-    leaves_.length_m[before + i] = (is_leaf ? p_.leaf_scale : p_.blossom_scale) * waiting_.growth[i];
-    leaves_.width_m[before + i] = leaves_.length_m[before + i] * (is_leaf ? p_.leaf_scale_x : 1);
+    const bool is_leaf = kind_[i] == LeafKind::leaf;
+    length_m[i] = (is_leaf ? p_.leaf_scale : p_.blossom_scale) * waiting_.growth[i];
+    width_m[i] = length_m[i] * (is_leaf ? p_.leaf_scale_x : 1);
   }
 }
 
 void LeafBatch::flush() {
+  if (waiting_.count == 0) return;
   const std::size_t before = leaves_.position_m.size(),
                     after = before + static_cast<std::size_t>(waiting_.count);
-  for (std::vector<Vec3>* column : {&leaves_.position_m, &leaves_.axis, &leaves_.side})
-    column->resize(after + 8);
+  const auto resize = [&](std::size_t size) {
+    for (std::vector<Vec3>* column : {&leaves_.position_m, &leaves_.axis, &leaves_.side})
+      column->resize(size);
+  };
+  resize(after + kMostBeyond);
   HWY_DYNAMIC_DISPATCH(place_all)
-  (p_, waiting_, &leaves_.position_m[before], &leaves_.axis[before], &leaves_.side[before]);
-  for (std::vector<Vec3>* column : {&leaves_.position_m, &leaves_.axis, &leaves_.side}) column->resize(after);
+  (p_, waiting_, {&leaves_.position_m[before], &leaves_.axis[before], &leaves_.side[before]});
+  resize(after);
   append_sizes();
   waiting_.count = 0;
 }

@@ -116,37 +116,91 @@ void turn(TurtleLanes& turtle, const std::uint64_t* keys, int at, const Level& l
   turtle.renormalize();
 }
 
-/// The tables of a vector of stems: column `entry` of three rows of each gets the lanes of v.
-void scatter(const Vector3& v, float* table, std::size_t stride, std::size_t stem_entries,
-             std::size_t count) {
-  const Floats d;
-  alignas(64) std::array<float, kMostLanes> lanes;
-  for (const Vector coordinate : {v.x, v.y, v.z}) {
-    hn::Store(coordinate, d, lanes.data());
-    for (std::size_t i = 0; i < count; ++i) table[i * stem_entries] = lanes[i];
-    table += stride;
+/// Rows of the tables of a vector of stems, an entry a vector, until they are turned round.
+class Entries {
+ public:
+  Entries(float* tables, std::size_t stride, std::size_t count)
+      : tables_(tables), stride_(stride), count_(count) {}
+
+  /// The next entries.
+  void put(const Vector3& point, const Vector3& heading, const Vector3& right) {
+    std::size_t row = 0;
+    for (const Vector3* v : {&point, &heading, &right})
+      for (const Vector number : {v->x, v->y, v->z})
+        hn::Store(number, Floats(), waiting_[row++][entry_].data());
+    if (++entry_ == kMost) flush();
   }
-}
+
+  /// Writes whole vectors: some entries more than were put.
+  void flush() {
+    for (std::size_t row = 0; row < StemCurve::kRows; ++row)
+      write(waiting_[row], tables_ + row * stride_ + first_);
+    first_ += entry_;
+    entry_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 8;
+  using Row = std::array<std::array<float, kMostLanes>, kMost>;
+
+  void write(const Row& row, float* table) const {
+    const std::size_t of_stem = StemCurve::kRows * stride_;
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    alignas(64) Row turned;
+    transpose(row, turned);
+    for (std::size_t i = 0; i < count_; ++i)
+      hn::StoreU(hn::Load(Floats(), turned[i].data()), Floats(), table + i * of_stem);
+  }
+
+  /// Pairs of rows, then of pairs, then of halves are interleaved.
+  static void transpose(const Row& from, Row& to) {
+    const Floats d;
+    const hn::Repartition<double, Floats> pairs;
+    Vector v[8], w[8];
+    for (std::size_t i = 0; i < 8; ++i) v[i] = hn::Load(d, from[i].data());
+    for (std::size_t i = 0; i < 8; i += 2) {
+      w[i] = hn::InterleaveLower(d, v[i], v[i + 1]);
+      w[i + 1] = hn::InterleaveUpper(d, v[i], v[i + 1]);
+    }
+    const auto as_pairs = [&](Vector a) { return hn::BitCast(pairs, a); };
+    for (std::size_t i = 0; i < 8; i += 4)
+      for (std::size_t half = 0; half < 2; ++half) {
+        const auto a = as_pairs(w[i + half]), b = as_pairs(w[i + half + 2]);
+        v[i + 2 * half] = hn::BitCast(d, hn::InterleaveLower(pairs, a, b));
+        v[i + 2 * half + 1] = hn::BitCast(d, hn::InterleaveUpper(pairs, a, b));
+      }
+    for (std::size_t i = 0; i < 4; ++i) {
+      hn::Store(hn::ConcatLowerLower(d, v[i + 4], v[i]), d, to[i].data());
+      hn::Store(hn::ConcatUpperUpper(d, v[i + 4], v[i]), d, to[i + 4].data());
+    }
+  }
+
+#else
+    for (std::size_t i = 0; i < count_; ++i)
+      for (std::size_t entry = 0; entry < entry_; ++entry) table[i * of_stem + entry] = row[entry][i];
+  }
+#endif
+
+  float* tables_;
+  std::size_t stride_, count_, first_ = 0, entry_ = 0;
+  alignas(64) std::array<Row, StemCurve::kRows> waiting_;
+};
 
 /// Stems [first, first + lanes) of the batch.
 void walk_lanes(const Start& start, std::size_t first, std::size_t count, const Level& level, float* tables,
                 std::size_t stride) {
-  const std::size_t stem_entries = StemCurve::kRows * stride;
-  Vector3 position = start.position.load(first);
-  TurtleLanes turtle{start.forward.load(first), start.right.load(first)};
+  Entries entries(tables, stride, count);
+  Vector3 position = start.position.load(first), heading_at_start = start.forward.load(first);
+  TurtleLanes turtle{heading_at_start, start.right.load(first)};
   const Vector segment_m = hn::Load(Floats(), &start.segment_m[first]);
-  const auto put = [&](StemCurve::Row row, const Vector3& v, int entry) {
-    scatter(v, tables + static_cast<std::size_t>(row) * stride + entry, stride, stem_entries, count);
-  };
-  put(StemCurve::kHeading, turtle.forward, 0);
   for (int k = 0; k < level.segments; ++k) {
-    put(StemCurve::kPoint, position, k);
-    put(StemCurve::kHeading, turtle.forward, k + 1);
-    put(StemCurve::kRight, turtle.right, k);
+    entries.put(position, heading_at_start, turtle.right);
+    heading_at_start = turtle.forward;
     position = position + turtle.forward * segment_m;
     if (k + 1 < level.segments) turn(turtle, &start.keys[first], k + 1, level);
   }
-  put(StemCurve::kPoint, position, level.segments);
+  entries.put(position, heading_at_start, turtle.right);
+  entries.flush();
 }
 
 /// tables: of the first stem, then of the second, and so on.

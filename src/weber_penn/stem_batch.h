@@ -18,7 +18,7 @@ struct StemCurve {
 
   int segments = 1;
   float segment_m = 0;
-  std::size_t stride = 0;  ///< of rows; two vectors more than there are segments can be read
+  std::size_t stride = 0;  ///< of rows; two vectors more than there are segments can be read and written
   const float* entries = nullptr;
 
   struct Rows3 {

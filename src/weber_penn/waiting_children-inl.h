@@ -27,7 +27,7 @@ inline Vector3 load(const WaitingChildren::Columns3& columns, std::size_t at) {
 }
 
 /// ChildPlacer::frame_at: unit tangents, and `right` before the roll.
-inline void make_frames(WaitingChildren& children, std::size_t at) {
+HWY_INLINE void make_frames(WaitingChildren& children, std::size_t at) {
   const Vector3 along = load(children.tangent, at);
   const Vector3 tangent = along * hn::Div(set(1), hn::Sqrt(dot(along, along)));
   const Vector3 right = cross(load(children.across, at), tangent);
@@ -47,7 +47,7 @@ struct TurnedChildren {
 };
 
 /// Rolls the frames about the parent, and turns them down from it.
-inline TurnedChildren turned(const WaitingChildren& children, std::size_t at) {
+HWY_INLINE TurnedChildren turned(const WaitingChildren& children, std::size_t at) {
   const Floats d;
   const Vector3 tangent = load(children.tangent, at), flat = load(children.right, at);
   const SineCosine roll = sine_cosine_deg(hn::Load(d, &children.roll_deg[at])),
