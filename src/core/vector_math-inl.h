@@ -23,6 +23,13 @@ constexpr std::size_t kMostLanes = 8;
 
 inline Vector set(float value) { return hn::Set(Floats(), value); }
 
+/// first, first + 1, … (Highway's Iota fills them in one by one where it does not know the first).
+inline hn::Vec<hn::RebindToSigned<Floats>> counted_from(std::int32_t first) {
+  const hn::RebindToSigned<Floats> di;
+  alignas(64) static constexpr std::int32_t kLanes[kMostLanes] = {0, 1, 2, 3, 4, 5, 6, 7};
+  return hn::Add(hn::Load(di, kLanes), hn::Set(di, first));
+}
+
 struct SineCosine {
   Vector sine, cosine;
 };
@@ -41,15 +48,11 @@ inline SineCosine sine_cosine_deg(Vector angle_deg) {
   c = hn::Add(hn::Sub(hn::Mul(hn::Mul(c, z), z), hn::Mul(z, set(0.5f))), set(1));
   const hn::RebindToSigned<Floats> di;
   const auto quadrant = hn::ConvertTo(di, quarters);
-  const auto bit = [&](auto v, int b) {
-    return hn::MaskFromVec(hn::BitCast(d, hn::Neg(hn::And(hn::ShiftRight<1>(v), hn::Set(di, b)))));
-  };
   const auto is_odd = hn::MaskFromVec(hn::BitCast(d, hn::Neg(hn::And(quadrant, hn::Set(di, 1)))));
-  const auto sine_negative = bit(quadrant, 1);
-  const auto cosine_negative = bit(hn::Add(quadrant, hn::Set(di, 1)), 1);
+  // Bit 1 of the quadrant is the sign of the sine, that of the next quadrant the sign of the cosine.
+  const auto sign = [&](auto v) { return hn::BitCast(d, hn::ShiftLeft<30>(hn::And(v, hn::Set(di, 2)))); };
   const Vector sine = hn::IfThenElse(is_odd, c, s), cosine = hn::IfThenElse(is_odd, s, c);
-  return {hn::IfThenElse(sine_negative, hn::Neg(sine), sine),
-          hn::IfThenElse(cosine_negative, hn::Neg(cosine), cosine)};
+  return {hn::Xor(sine, sign(quadrant)), hn::Xor(cosine, sign(hn::Add(quadrant, hn::Set(di, 1))))};
 }
 
 /// The angle of (x, y) in degrees, in [-180, 180]; 0 for the origin.

@@ -12,6 +12,7 @@
 #include <array>
 #include <bit>
 
+#include "render/run_queue-inl.h"
 #include "render/scanline_cone.h"
 #include "render/span.h"
 #include "render/span_lanes-inl.h"
@@ -22,9 +23,6 @@ namespace HWY_NAMESPACE {
 namespace {
 
 constexpr float kFarPx = 1e9f;
-
-using Integers = hn::RebindToSigned<Floats>;
-using IntegerLanes = hn::Vec<Integers>;
 
 struct Line {
   Vector at_zero, by_row;  ///< x along scan lines
@@ -92,28 +90,6 @@ struct ConeBounds {
   }
 };
 
-/// Sets the pixels of the runs of up to 31 pixels that begin in `row` at `begin`, a run a lane; of those that
-/// are drawn.
-void set_runs(IntegerLanes row, IntegerLanes begin, IntegerLanes end, hn::Mask<Integers> is_drawn,
-              Mask& mask) {
-  const Integers di;
-  const auto width = hn::IfThenElseZero(is_drawn, hn::Sub(end, begin));
-  const auto bits = hn::Sub(hn::Shl(hn::Set(di, 1), width), hn::Set(di, 1));
-  const auto word = hn::Add(hn::Mul(row, hn::Set(di, mask.words_per_row())), hn::ShiftRight<6>(begin));
-  alignas(64) std::array<std::int32_t, kMostLanes> words, shifts, runs;
-  std::uint8_t drawn[8] = {};
-  hn::StoreMaskBits(di, is_drawn, drawn);
-  if (drawn[0] == 0) return;
-  hn::Store(word, di, words.data());
-  hn::Store(hn::And(begin, hn::Set(di, 63)), di, shifts.data());
-  hn::Store(bits, di, runs.data());
-  std::uint64_t* const all = mask.words().data();
-  for (unsigned left = drawn[0]; left != 0; left &= left - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-    set_bits(all + words[lane], shifts[lane], static_cast<std::uint32_t>(runs[lane]));
-  }
-}
-
 /// One cone, a vector of its scan lines at a time.
 void draw_rows(const ConeBounds& bounds, float y0, int begin_row, int end_row, Mask& mask) {
   const Floats d;
@@ -146,7 +122,8 @@ class ConeLanes {
                       hn::Max(hn::Add(from.y, reach0), hn::Add(to.y, reach1)), mask.height_px());
   }
 
-  void draw(Mask& mask) const {
+  /// Short cones leave runs in the queue, the others are drawn.
+  void draw(RunQueue& runs, Mask& mask) const {
     const Integers di;
     const auto count = hn::And(hn::Sub(rows_.end, rows_.begin), is_cone_);
     const IntegerLanes most = hn::MaxOfLanes(di, count);
@@ -155,7 +132,7 @@ class ConeLanes {
       const Vector width = hn::Add(hn::Abs(dx_), hn::Add(from_.radius, to_.radius));
       const auto is_short = hn::And(hn::Lt(count, hn::Set(di, kMostShortRows + 1)),
                                     hn::RebindMask(di, hn::Lt(width, set(kWidestShortPx))));
-      draw_short(bounds, hn::IfThenElseZero(is_short, count), mask);
+      draw_short(bounds, hn::IfThenElseZero(is_short, count), mask.width_px(), runs);
       if (!hn::AllTrue(di, is_short)) draw_long(bounds, hn::IfThenZeroElse(is_short, count), mask);
     }
     draw_ends(mask);
@@ -165,15 +142,16 @@ class ConeLanes {
   static constexpr int kMostShortRows = 16;
   static constexpr float kWidestShortPx = 28;
 
-  void draw_short(const ConeBounds& bounds, IntegerLanes count, Mask& mask) const {
+  void draw_short(const ConeBounds& bounds, IntegerLanes count, int width_px, RunQueue& runs) const {
     const Integers di;
     const int most = hn::GetLane(hn::MaxOfLanes(di, count));
     const Vector first = hn::Sub(hn::Add(hn::ConvertTo(Floats(), rows_.begin), set(0.5f)), from_.y);
     for (int row = 0; row < most; ++row) {
       const Vector y = hn::Add(first, set(static_cast<float>(row)));
-      const RunLanes run = run_lanes(bounds.low(y), bounds.high(y), mask.width_px());
-      const auto is_drawn = hn::And(hn::Gt(count, hn::Set(di, row)), hn::Gt(run.end, run.begin));
-      set_runs(hn::Add(rows_.begin, hn::Set(di, row)), run.begin, run.end, is_drawn, mask);
+      const RunLanes run = run_lanes(bounds.low(y), bounds.high(y), width_px);
+      const auto width = hn::IfThenElseZero(hn::Gt(count, hn::Set(di, row)), hn::Sub(run.end, run.begin));
+      const auto bits = hn::Sub(hn::Shl(hn::Set(di, 1), width), hn::Set(di, 1));
+      runs.add(hn::Add(rows_.begin, hn::Set(di, row)), run.begin, bits);
     }
   }
 

@@ -1,7 +1,7 @@
 // Small leaves of an orthographic picture as tiles of 6 × 5 pixels, a tile a lane: those whose pixels are all
 // set already are left out before their outlines are looked at. Nothing of this has a branch that depends on
-// the picture but the last step, which sets pixels: crowns make such branches hard to predict. For files that
-// Highway compiles once per instruction set.
+// the pixels of one leaf: crowns make such branches hard to predict. For files that Highway compiles once per
+// instruction set.
 #if defined(ESPALIER_RENDER_LEAF_TILES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ESPALIER_RENDER_LEAF_TILES_INL_H
 #undef ESPALIER_RENDER_LEAF_TILES_INL_H
@@ -12,17 +12,14 @@
 #include <array>
 #include <bit>
 
-#include "core/packing-inl.h"
 #include "render/leaf_pixels-inl.h"
+#include "render/run_queue-inl.h"
 #include "render/span_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace espalier {
 namespace HWY_NAMESPACE {
 namespace {
-
-using Integers = hn::RebindToSigned<Floats>;
-using IntegerLanes = hn::Vec<Integers>;
 
 /// A linear function of column and row.
 struct LinearLanes {
@@ -45,6 +42,7 @@ class LeafTiles {
 
   LeafTiles(const LeafEdges& edges, Mask& mask)
       : edges_(edges),
+        runs_(mask),
         words_(mask.words().data()),
         words_per_row_(mask.words_per_row()),
         last_row_(mask.height_px() - 1) {}
@@ -76,6 +74,7 @@ class LeafTiles {
       draw_all<6, 0>();
     else
       draw_all<0, 0>();
+    runs_.flush();
     size_ = 0;
   }
 
@@ -89,8 +88,10 @@ class LeafTiles {
   };
   static constexpr std::array<Place, kWidth* kHeight> kPlaces = [] {
     std::array<Place, kWidth * kHeight> places{};
-    for (int i = 0; i < kWidth * kHeight; ++i)
-      places[static_cast<std::size_t>(i)] = {static_cast<float>(i % kWidth), static_cast<float>(i / kWidth)};
+    std::size_t i = 0;
+    for (int row = 0; row < kHeight; ++row)
+      for (int column = 0; column < kWidth; ++column)
+        places[i++] = {static_cast<float>(column), static_cast<float>(row)};
     return places;
   }();
   template <typename T>
@@ -178,10 +179,14 @@ class LeafTiles {
           hn::RebindMask(di, edges_.contain<kChain, kMore>(x.at(column, row), y.at(column, row)));
       inside = hn::Or(inside, hn::IfThenElseZero(is_inside, hn::Set(di, std::int32_t{1} << pixel)));
     }
-    alignas(64) std::array<std::int32_t, kMostLanes> drawn;
-    hn::Store(hn::And(inside, unset), di, drawn.data());
-    for (std::size_t lane = 0; lane < hn::Lanes(di); ++lane)
-      set_pixels(at + lane, static_cast<std::uint32_t>(drawn[lane]));
+    auto bits = hn::And(inside, unset);
+    auto line = hn::Load(di, &row_[at]);
+    const auto first = hn::Load(di, &column_[at]);
+    for (int row = 0; row < kHeight; ++row) {
+      runs_.add(line, first, hn::And(bits, hn::Set(di, kRowBits)));
+      bits = hn::ShiftRight<kWidth>(bits);
+      line = hn::Add(line, hn::Set(di, 1));
+    }
   }
 
   /// The pixels that any tile of a vector has not set yet.
@@ -191,12 +196,8 @@ class LeafTiles {
     return static_cast<unsigned>(bits);
   }
 
-  void set_pixels(std::size_t tile, std::uint32_t bits) {
-    std::uint64_t* row = words_ + std::ptrdiff_t{row_[tile]} * words_per_row_;
-    for (; bits != 0; bits >>= kWidth, row += words_per_row_) set_bits(row, column_[tile], bits & (kRowBits));
-  }
-
   const LeafEdges& edges_;
+  RunQueue runs_;
   std::uint64_t* words_;
   int words_per_row_, last_row_;
   std::size_t size_ = 0;

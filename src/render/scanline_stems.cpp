@@ -125,7 +125,7 @@ void prepare(const Knots& knots, std::size_t first, int at, const OrthographicLa
 /// Points along stems, which wait to be joined by cones.
 class PointQueue {
  public:
-  explicit PointQueue(Mask& mask) : mask_(mask) {}
+  explicit PointQueue(Mask& mask) : mask_(mask), runs_(mask) {}
 
   /// Segment i of `curves` in this many cones. It goes on from the last one where that ends in its start.
   void add(const CurveColumns& curves, std::size_t i, int cones, bool goes_on) {
@@ -134,9 +134,9 @@ class PointQueue {
     const Floats d;
     const Vector step = set(1 / static_cast<float>(cones)), r0 = set(curves.r0[i]), r1 = set(curves.r1[i]);
     for (int first = 0; first <= cones; first += static_cast<int>(hn::Lanes(d))) {
-      const Vector t = hn::Mul(hn::Iota(d, static_cast<float>(first)), step);
+      const Vector t = hn::Mul(hn::ConvertTo(d, counted_from(first)), step);
       const PictureLanes point = on_curve(curves, i, t);
-      const auto at = static_cast<std::size_t>(count_ + first);
+      const std::size_t at = static_cast<std::size_t>(count_) + static_cast<std::size_t>(first);
       hn::StoreU(point.x, d, &x_[at]);
       hn::StoreU(point.y, d, &y_[at]);
       hn::StoreU(point.depth, d, &depth_[at]);
@@ -150,7 +150,8 @@ class PointQueue {
   /// Draws the cones between the points, and empties the queue.
   void draw() {
     for (std::size_t at = 0; at < static_cast<std::size_t>(count_); at += hn::Lanes(Floats()))
-      ConeLanes(load(at), load(at + 1), hn::LoadU(Integers(), &is_cone_[at]), mask_).draw(mask_);
+      ConeLanes(load(at), load(at + 1), hn::LoadU(Integers(), &is_cone_[at]), mask_).draw(runs_, mask_);
+    runs_.flush();
     count_ = 0;
   }
 
@@ -179,6 +180,7 @@ class PointQueue {
   }
 
   Mask& mask_;
+  RunQueue runs_;
   int count_ = 0;  ///< of points before the last one, which has no cone to the next
   Points<float> x_, y_, depth_, radius_;
   Points<std::int32_t> is_cone_;  ///< -1 where a cone leads to the next point, or 0

@@ -59,7 +59,7 @@ class Rows {
     hn::StoreU(down_deg(z, index), d, &children_.down_deg[at]);
     hn::StoreU(hn::Mul(z, set(stem_.length_m)), d, &children_.offset_m[at]);
     hn::StoreU(set(growth), d, &children_.growth[at]);
-    hn::StoreU(hn::Iota(Integers(), index), Integers(), &children_.index[at]);
+    hn::StoreU(counted_from(index), Integers(), &children_.index[at]);
   }
 
  private:
@@ -109,14 +109,15 @@ HWY_INLINE OnCurve on_segment(const Segment& segment, Vector t) {
 void put_run(const GrowingStem& stem, const Segment& segment, const ChildRun& run, float growth,
              const WeberPennParameters& p, WaitingChildren& children) {
   const Integers di;
+  const auto first_row = static_cast<std::size_t>(children.count);
   Rows rows(stem, p, children);
   for (int first = 0; first < run.count; first += static_cast<int>(hn::Lanes(di))) {
-    const IntegerLanes k = hn::Iota(di, first);
+    const IntegerLanes k = counted_from(first);
     const Vector even = hn::Add(set(run.t_start), hn::Mul(hn::ConvertTo(Floats(), k), set(run.t_step)));
     const Vector t = in_unit(hn::IfThenElse(is_odd(k), hn::Add(even, set(run.t_odd)), even));
     const Vector z = hn::Add(set(segment.z_start), hn::Mul(t, set(segment.z_end - segment.z_start)));
     rows.put(on_segment(segment, t), z, hn::LoadU(Floats(), run.roll_deg + first), growth, run.first + first,
-             static_cast<std::size_t>(children.count + first));
+             first_row + static_cast<std::size_t>(first));
   }
 }
 
@@ -164,11 +165,12 @@ void put_spread(const GrowingStem& stem, const SpreadRun& run, float growth, con
   const Integers di;
   const ChildSpread& spread = run.spread;
   const int segments = run.curve.segments;
+  const auto first_row = static_cast<std::size_t>(children.count);
   const Vector z_per_segment = set(static_cast<float>(segments));
   Rows rows(stem, p, children);
   for (int first = 0; first < run.count; first += static_cast<int>(hn::Lanes(di))) {
     const int child = run.first + first;
-    const IntegerLanes k = hn::Iota(di, child);
+    const IntegerLanes k = counted_from(child);
     const Vector number = hn::ConvertTo(Floats(), k);
     Vector segment = hn::Zero(Floats());
     for (int i = 0; i + 1 < segments; ++i)
@@ -183,7 +185,7 @@ void put_spread(const GrowingStem& stem, const SpreadRun& run, float growth, con
     const Vector roll_deg =
         hn::Add(set(run.rolls.start_deg), hn::LoadU(Floats(), run.rolls.by_child_deg + child));
     rows.put(on_curve(run.curve, lookup, t), z, roll_deg, growth, child,
-             static_cast<std::size_t>(children.count + first));
+             first_row + static_cast<std::size_t>(first));
   }
 }
 

@@ -7,16 +7,16 @@
 
 namespace espalier {
 
-constexpr float kThinnestParent_m = 0.0001f;
-constexpr float kThinnestChild_m = 0.005f;
-constexpr float kShortestStem_m = 1e-5f;
+constexpr float kThinnestParentM = 0.0001f;
+constexpr float kThinnestChildM = 0.005f;
+constexpr float kShortestStemM = 1e-5f;
 
 /// `parent_radius_m` at the parent's base, `site_radius_m` where the child sits; `level` of the child.
 inline float child_radius_m(float length_m, float parent_length_m, float parent_radius_m, float site_radius_m,
                             int level, const WeberPennParameters& p) {
   const float scaled_m = p.radius_mod[level_index(level)] * parent_radius_m *
                          std::pow(length_m / parent_length_m, p.ratio_power);
-  return std::min(site_radius_m, std::max(kThinnestChild_m, scaled_m));
+  return std::min(site_radius_m, std::max(kThinnestChildM, scaled_m));
 }
 
 /// The longest child relative to this stem; the stem has its level and key.

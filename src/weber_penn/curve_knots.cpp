@@ -29,7 +29,7 @@ void put_knots(const GrowingStem& stem, const StemCurve& curve, float taper, std
     store(point, &knots.point_m[to]);
     store(point - handle, &knots.handle_in_m[to]);
     store(point + handle, &knots.handle_out_m[to]);
-    const Vector z = hn::Div(hn::Iota(Floats(), static_cast<float>(at)), segments);
+    const Vector z = hn::Div(hn::ConvertTo(Floats(), counted_from(at)), segments);
     hn::StoreU(radius_at(stem, z, taper), Floats(), &knots.radius_m[to]);
   }
 }

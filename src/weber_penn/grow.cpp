@@ -186,7 +186,7 @@ float Growth::child_length_m(const GrowingStem& parent, const ChildSite& site) c
 }
 
 void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, const ChildSite& site) {
-  if (site.parent_radius_m < kThinnestParent_m) return;
+  if (site.parent_radius_m < kThinnestParentM) return;
   const int level = parent.level + 1;
   GrowingStem child;
   child.key = child_key(parent.key, site.index);
@@ -198,7 +198,7 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
   child.parent_length_m = parent.length_m;
   child.parent_child_max = parent.child_max;
   child.length_m = site.grown_fraction * child_length_m(parent, site);
-  if (child.length_m < kShortestStem_m) return;
+  if (child.length_m < kShortestStemM) return;
   // [CH §3.2.1]: starts as close as is safe to the parent's surface; before pruning, which tests where it is.
   const auto radius_m = [&](float length_m) {
     return child_radius_m(length_m, parent.length_m, parent.radius_m, site.parent_radius_m, level, p_);
@@ -215,7 +215,7 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
 /// False where nothing is left of the stem.
 bool Growth::prune(GrowingStem& stem) const {
   stem.length_m = pruned_length_m(stem, p_, settings_.prune_to);
-  return stem.length_m >= kShortestStem_m;
+  return stem.length_m >= kShortestStemM;
 }
 
 double Growth::over_budget_factor() const {
@@ -235,7 +235,7 @@ GrowthResult Growth::run(Seed seed) {
     trunk.radius_m = trunk.length_m * p_.ratio * p_.radius_mod[0];
     trunk.child_max = drawn_child_max(trunk, p_);
   }
-  std::erase_if(level_, [](const GrowingStem& trunk) { return trunk.length_m < kShortestStem_m; });
+  std::erase_if(level_, [](const GrowingStem& trunk) { return trunk.length_m < kShortestStemM; });
   for (int level = 0; level < p_.level_count() && !level_.empty(); ++level) {
     const bool in_batches = takes_level(level_.front());
     for (std::size_t index = 0; index < level_.size();) {

@@ -45,14 +45,14 @@ Vector3 turned_about_z(const Vector3& v, const SineCosine& turn) {
           hn::Add(hn::Mul(v.x, turn.sine), hn::Mul(v.y, turn.cosine)), v.z};
 }
 
-/// Turns leaves about z by a share of the angle between their normal and the way out [leaf_placement.cpp].
-HWY_INLINE void bend_outwards(LeafVectors& leaf, float leaf_bend) {
-  const Vector3 normal = cross(leaf.side, leaf.axis);
-  const Vector sine = hn::Sub(hn::Mul(normal.x, leaf.position.y), hn::Mul(normal.y, leaf.position.x));
-  const Vector cosine = hn::Add(hn::Mul(normal.x, leaf.position.x), hn::Mul(normal.y, leaf.position.y));
-  const SineCosine turn = sine_cosine_deg(hn::Mul(set(leaf_bend), arc_tangent2_deg(sine, cosine)));
-  leaf.axis = turned_about_z(leaf.axis, turn);
-  leaf.side = turned_about_z(leaf.side, turn);
+/// leaf_bend turns leaves about z by a share of the angle between their normal and the way out
+/// [leaf_placement.cpp]: that angle, in the place of the roll.
+HWY_INLINE void find_bends(WaitingChildren& leaves, std::size_t at, float leaf_bend) {
+  const Vector3 normal = cross(load(leaves.right, at), load(leaves.tangent, at));
+  const Vector3 position = load(leaves.point, at);
+  const Vector sine = hn::Sub(hn::Mul(normal.x, position.y), hn::Mul(normal.y, position.x));
+  const Vector cosine = hn::Add(hn::Mul(normal.x, position.x), hn::Mul(normal.y, position.y));
+  hn::Store(hn::Mul(set(leaf_bend), arc_tangent2_deg(sine, cosine)), Floats(), &leaves.roll_deg[at]);
 }
 
 HWY_INLINE void place(const LeafVectors& leaf, std::size_t at, const LeafRows& to) {
@@ -65,6 +65,7 @@ HWY_INLINE void place(const LeafVectors& leaf, std::size_t at, const LeafRows& t
 void place_all(const WeberPennParameters& p, WaitingChildren& leaves, const LeafRows& to) {
   const auto count = static_cast<std::size_t>(leaves.count), lanes = hn::Lanes(Floats());
   for (std::size_t at = 0; at < count; at += lanes) make_frames(leaves, at);
+  for (std::size_t at = 0; at < count; at += lanes) make_turns(leaves, at);
   if (p.leaf_bend <= 0) {
     for (std::size_t at = 0; at < count; at += lanes) place(turned_leaves(leaves, at), at, to);
     return;
@@ -75,10 +76,12 @@ void place_all(const WeberPennParameters& p, WaitingChildren& leaves, const Leaf
     store(leaf.axis, leaves.tangent, at);
     store(leaf.side, leaves.right, at);
   }
+  for (std::size_t at = 0; at < count; at += lanes) find_bends(leaves, at, p.leaf_bend);
   for (std::size_t at = 0; at < count; at += lanes) {
-    LeafVectors leaf{load(leaves.point, at), load(leaves.tangent, at), load(leaves.right, at)};
-    bend_outwards(leaf, p.leaf_bend);
-    place(leaf, at, to);
+    const SineCosine turn = sine_cosine_deg(hn::Load(Floats(), &leaves.roll_deg[at]));
+    place({load(leaves.point, at), turned_about_z(load(leaves.tangent, at), turn),
+           turned_about_z(load(leaves.right, at), turn)},
+          at, to);
   }
 }
 

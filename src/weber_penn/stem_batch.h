@@ -14,7 +14,7 @@ namespace espalier {
 /// The curve of one stem. Segment k runs from knot k to knot k + 1, at a third of its length from both along
 /// the headings there: that of segment k - 1 (of segment 0 for the first) and its own.
 struct StemCurve {
-  enum Row { kPoint = 0, kHeading = 3, kRight = 6, kRows = 9 };
+  static constexpr std::size_t kPoint = 0, kHeading = 3, kRight = 6, kRows = 9;  ///< rows, by axis
 
   int segments = 1;
   float segment_m = 0;
@@ -34,8 +34,8 @@ struct StemCurve {
   Rows3 right() const { return rows(kRight, 0); }
 
  private:
-  Rows3 rows(Row first, std::size_t entry) const {
-    const float* const x = entries + static_cast<std::size_t>(first) * stride + entry;
+  Rows3 rows(std::size_t first, std::size_t entry) const {
+    const float* const x = entries + first * stride + entry;
     return {x, x + stride, x + 2 * stride};
   }
 };

@@ -28,7 +28,7 @@ void make_sizes(const WaitingChildren& children, const TwigBatchParents& parents
   const Vector ratio = power(hn::Max(hn::Div(length_m, parent_m), set(1e-30f)), ratio_power);
   const Vector scaled_m = hn::Mul(hn::Mul(set(radius_mod), hn::Load(d, &parents.radius_m[at])), ratio);
   hn::Store(length_m, d, &made.length_m[at]);
-  hn::Store(hn::Min(hn::Load(d, &children.parent_radius_m[at]), hn::Max(set(kThinnestChild_m), scaled_m)), d,
+  hn::Store(hn::Min(hn::Load(d, &children.parent_radius_m[at]), hn::Max(set(kThinnestChildM), scaled_m)), d,
             &made.radius_m[at]);
 }
 
@@ -48,6 +48,7 @@ void make_stems(const WeberPennParameters& p, int level, const TwigBatchParents&
                 WaitingChildren& children, MadeStems& made) {
   const auto count = static_cast<std::size_t>(children.count), lanes = hn::Lanes(Floats());
   for (std::size_t at = 0; at < count; at += lanes) make_frames(children, at);
+  for (std::size_t at = 0; at < count; at += lanes) make_turns(children, at);
   for (std::size_t at = 0; at < count; at += lanes)
     make_sizes(children, parents, p.radius_mod[level_index(level)], p.ratio_power, at, made);
   for (std::size_t at = 0; at < count; at += lanes) make_turtles(children, at, made);
@@ -101,7 +102,7 @@ GrowingStem TwigBatch::made(std::size_t row) const {
 void TwigBatch::flush() {
   HWY_DYNAMIC_DISPATCH(make_stems)(p_, parent_level_ + 1, parents_, waiting_, made_);
   for (std::size_t row = 0; row < static_cast<std::size_t>(waiting_.count); ++row) {
-    if (waiting_.parent_radius_m[row] < kThinnestParent_m || made_.length_m[row] < kShortestStem_m) continue;
+    if (waiting_.parent_radius_m[row] < kThinnestParentM || made_.length_m[row] < kShortestStemM) continue;
     stems_.push_back(made(row));
     GrowingStem& stem = stems_.back();
     const float length_m = pruned_length_m(stem, p_, settings_.prune_to);
@@ -109,7 +110,7 @@ void TwigBatch::flush() {
     stem.length_m = length_m;
     stem.radius_m = child_radius_m(length_m, parents_.length_m[row], parents_.radius_m[row],
                                    waiting_.parent_radius_m[row], stem.level, p_);
-    if (length_m < kShortestStem_m) stems_.pop_back();
+    if (length_m < kShortestStemM) stems_.pop_back();
   }
   waiting_.count = 0;
 }

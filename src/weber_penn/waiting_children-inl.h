@@ -46,15 +46,26 @@ struct TurnedChildren {
   Vector3 right, outward, heading;
 };
 
+/// Sines and cosines of the children's angles.
+HWY_INLINE void make_turns(WaitingChildren& children, std::size_t at) {
+  const Floats d;
+  const SineCosine roll = sine_cosine_deg(hn::Load(d, &children.roll_deg[at])),
+                   down = sine_cosine_deg(hn::Load(d, &children.down_deg[at]));
+  hn::Store(roll.sine, d, &children.roll_sine[at]);
+  hn::Store(roll.cosine, d, &children.roll_cosine[at]);
+  hn::Store(down.sine, d, &children.down_sine[at]);
+  hn::Store(down.cosine, d, &children.down_cosine[at]);
+}
+
 /// Rolls the frames about the parent, and turns them down from it.
 HWY_INLINE TurnedChildren turned(const WaitingChildren& children, std::size_t at) {
   const Floats d;
+  const auto number = [&](const auto& column) { return hn::Load(d, &column[at]); };
   const Vector3 tangent = load(children.tangent, at), flat = load(children.right, at);
-  const SineCosine roll = sine_cosine_deg(hn::Load(d, &children.roll_deg[at])),
-                   down = sine_cosine_deg(hn::Load(d, &children.down_deg[at]));
-  const Vector3 right = flat * roll.cosine + cross(tangent, flat) * roll.sine;
+  const Vector3 right =
+      flat * number(children.roll_cosine) + cross(tangent, flat) * number(children.roll_sine);
   const Vector3 outward = cross(tangent, right);
-  return {right, outward, tangent * down.cosine + outward * down.sine};
+  return {right, outward, tangent * number(children.down_cosine) + outward * number(children.down_sine)};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -20,6 +20,7 @@ struct WaitingChildren {
   Columns3 across;  ///< forward × right at the segment's end: with the tangent it spans the plane of `right`
   Columns3 right;   ///< of the unrolled frame
   alignas(64) Column<float> parent_radius_m, roll_deg, down_deg;
+  alignas(64) Column<float> roll_sine, roll_cosine, down_sine, down_cosine;
   alignas(64) Column<float> offset_m;      ///< along the parent
   alignas(64) Column<float> growth;        ///< of the child's size; what it is relative to, the owner knows
   alignas(64) Column<std::int32_t> index;  ///< along the parent, from its base
