@@ -61,11 +61,12 @@ class Growth {
 
   std::int32_t last_stem() const { return static_cast<std::int32_t>(plant_.stems.size()) - 1; }
   Offspring offspring(const GrowingStem& stem);
-  bool takes_level(const GrowingStem& any_stem);
+  bool takes(const GrowingStem& stem);
+  std::size_t batch_size(std::size_t index);
   void begin_stem(const GrowingStem& stem);
   void grow_stem(const GrowingStem& stem);
   void grow_stems(std::span<const GrowingStem> stems);
-  std::size_t grow_next(std::size_t index, bool in_batches);
+  std::size_t grow_next(std::size_t index);
   void grow_child(const GrowingStem& parent, std::int32_t parent_index, const ChildSite& site);
   float child_length_m(const GrowingStem& parent, const ChildSite& site) const;
   bool prune(GrowingStem& stem) const;
@@ -157,18 +158,24 @@ void Growth::grow_stems(std::span<const GrowingStem> stems) {
   }
 }
 
-/// Whether stems of this level grow in batches, with all that is on them.
-bool Growth::takes_level(const GrowingStem& any_stem) {
-  const Offspring of = offspring(any_stem);
+/// Whether the stem grows in a batch, with all that is on it.
+bool Growth::takes(const GrowingStem& stem) {
+  const Offspring of = offspring(stem);
   const bool is_scalar = (of.leaves || of.stems) && of.batch == nullptr;
-  return uses_vectors_ && !is_scalar && StemBatch::takes(any_stem.level, p_) &&
-         has_plain_knots(any_stem.level, p_);
+  return uses_vectors_ && !is_scalar && StemBatch::takes(stem.level, p_) && has_plain_knots(stem.level, p_);
+}
+
+/// How many stems from `index` on grow in one batch.
+std::size_t Growth::batch_size(std::size_t index) {
+  const std::size_t most = std::min<std::size_t>(StemBatch::kMostStems, level_.size() - index);
+  std::size_t count = 0;
+  while (count < most && takes(level_[index + count])) ++count;
+  return count;
 }
 
 /// One stem, or as many as a batch holds; how many.
-std::size_t Growth::grow_next(std::size_t index, bool in_batches) {
-  if (in_batches) {
-    const std::size_t count = std::min<std::size_t>(StemBatch::kMostStems, level_.size() - index);
+std::size_t Growth::grow_next(std::size_t index) {
+  if (const std::size_t count = batch_size(index); count > 0) {
     grow_stems(std::span(level_).subspan(index, count));
     return count;
   }
@@ -237,9 +244,8 @@ GrowthResult Growth::run(Seed seed) {
   }
   std::erase_if(level_, [](const GrowingStem& trunk) { return trunk.length_m < kShortestStemM; });
   for (int level = 0; level < p_.level_count() && !level_.empty(); ++level) {
-    const bool in_batches = takes_level(level_.front());
     for (std::size_t index = 0; index < level_.size();) {
-      index += grow_next(index, in_batches);
+      index += grow_next(index);
       if (const double factor = over_budget_factor(); factor > 1) {
         leaf_batch_.flush();
         return {false, factor};
