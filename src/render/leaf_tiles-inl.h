@@ -9,6 +9,7 @@
 #define ESPALIER_RENDER_LEAF_TILES_INL_H
 #endif
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -58,7 +59,8 @@ class LeafTiles {
               highest = hn::GetLane(hn::MaxOfLanes(di, down));
     for (int row = 0; row < highest; row += kHeight)
       for (int column = 0; column < widest; column += kWidth)
-        add_tiles(leaves, column, row, hn::Sub(across, hn::Set(di, column)), hn::Sub(down, hn::Set(di, row)));
+        add_tiles(leaves, column, row, hn::Sub(across, hn::Set(di, column)), hn::Sub(down, hn::Set(di, row)),
+                  std::min(kHeight, highest - row));
   }
 
   /// Sets the pixels of all tiles that are inside of their leaves, and empties the queue.
@@ -101,12 +103,13 @@ class LeafTiles {
   };
 
   /// The tiles that begin at this pixel of their leaves, of which `right` and `down` pixels are left there.
-  void add_tiles(const LeafLanes& leaves, int column, int row, IntegerLanes right, IntegerLanes down) {
+  void add_tiles(const LeafLanes& leaves, int column, int row, IntegerLanes right, IntegerLanes down,
+                 int rows) {
     const Integers di;
     const Floats d;
     const auto x = hn::Add(leaves.columns.begin, hn::Set(di, column)),
                y = hn::Add(leaves.rows.begin, hn::Set(di, row));
-    const auto unset = unset_pixels(x, y, clamped(right, kWidth), clamped(down, kHeight));
+    const auto unset = unset_pixels(x, y, clamped(right, kWidth), clamped(down, kHeight), rows);
     const Packing packing(hn::Ne(unset, hn::Zero(di)));
     const auto put = [&](const LinearLanes& from, LinearColumns& to) {
       const Vector first = from.at(set(static_cast<float>(column)), set(static_cast<float>(row)));
@@ -129,15 +132,16 @@ class LeafTiles {
   }
 
   /// The pixels not set yet of the first `width` × `height` pixels from (x, y): bit kWidth·row + column of
-  /// each number.
-  IntegerLanes unset_pixels(IntegerLanes x, IntegerLanes y, IntegerLanes width, IntegerLanes height) const {
+  /// each number. None is higher than `most_rows`.
+  IntegerLanes unset_pixels(IntegerLanes x, IntegerLanes y, IntegerLanes width, IntegerLanes height,
+                            int most_rows) const {
     static_assert(std::endian::native == std::endian::little);
     const Integers di;
     const int row_bytes = 8 * words_per_row_;
     const auto byte = hn::Min(hn::ShiftRight<3>(x), hn::Set(di, row_bytes - 4)),
                shift = hn::Min(hn::Sub(x, hn::ShiftLeft<3>(byte)), hn::Set(di, 31));
     auto set = hn::Zero(di);
-    for (int row = 0; row < kHeight; ++row) {
+    for (int row = 0; row < most_rows; ++row) {
       const auto line = hn::Min(hn::Add(y, hn::Set(di, row)), hn::Set(di, last_row_));
       const auto offset = hn::Add(hn::Mul(line, hn::Set(di, row_bytes)), byte);
       const auto bits = hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(words_), offset);
@@ -172,7 +176,8 @@ class LeafTiles {
     const LinearLanes x = load(x_, at), y = load(y_, at);
     const auto unset = hn::Load(di, &unset_[at]);
     auto inside = hn::Zero(di);
-    for (unsigned left = any_bits(at); left != 0; left &= left - 1) {
+    const unsigned unset_by_any = any_bits(at);
+    for (unsigned left = unset_by_any; left != 0; left &= left - 1) {
       const auto pixel = static_cast<std::size_t>(std::countr_zero(left));
       const Vector column = set(kPlaces[pixel].column), row = set(kPlaces[pixel].row);
       const auto is_inside =
@@ -182,7 +187,7 @@ class LeafTiles {
     auto bits = hn::And(inside, unset);
     auto line = hn::Load(di, &row_[at]);
     const auto first = hn::Load(di, &column_[at]);
-    for (int row = 0; row < kHeight; ++row) {
+    for (unsigned left = unset_by_any; left != 0; left >>= kWidth) {
       runs_.add(line, first, hn::And(bits, hn::Set(di, kRowBits)));
       bits = hn::ShiftRight<kWidth>(bits);
       line = hn::Add(line, hn::Set(di, 1));
