@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "weber_penn/changed_children.h"
 #include "weber_penn/children.h"
 #include "weber_penn/leaf_batch.h"
 #include "weber_penn/leaf_placement.h"
@@ -50,11 +51,25 @@ class Growth {
  private:
   class StemGrowth;
 
+  /// Whether the stem itself is part of what is asked for, not only on the way to it.
+  bool is_shown(const GrowingStem& stem) const {
+    return !settings_.only_part ||
+           static_cast<std::size_t>(stem.path_length) >= settings_.only_part->path.size();
+  }
+  bool is_wanted(const GrowingStem& stem) const;
+  /// The one child to grow where the stem only leads to the part asked for.
+  std::optional<std::uint32_t> only_child(const GrowingStem& stem) const {
+    if (is_shown(stem)) return std::nullopt;
+    return settings_.only_part->path[static_cast<std::size_t>(stem.path_length)];
+  }
+
   StemGrowth begin_stem(const GrowingStem& stem);
-  void end_stem();
+  void end_stem(const GrowingStem& stem);
   void grow_stem(const GrowingStem& stem);
   void grow_stems(std::span<const GrowingStem> stems);
+  std::size_t batch_size(std::size_t index) const;
   std::size_t grow_next(std::size_t index, bool in_batches);
+  bool change_trunk(GrowingStem& trunk) const;
   void grow_child(const GrowingStem& parent, std::int32_t parent_index, const ChildSite& site);
   float child_length_m(const GrowingStem& parent, const ChildSite& site) const;
   float child_radius_m(const GrowingStem& parent, const ChildSite& site, float length_m) const;
@@ -73,33 +88,55 @@ class Growth {
 class Growth::StemGrowth : public StemVisitor {
  public:
   StemGrowth(Growth& growth, const GrowingStem& stem)
-      : growth_(growth), index_(static_cast<std::int32_t>(growth.plant_.stems.size()) - 1) {
+      : growth_(growth),
+        is_shown_(growth.is_shown(stem)),
+        index_(is_shown_ ? static_cast<std::int32_t>(growth.plant_.stems.size()) - 1 : -1) {
     const bool last_level = stem.level + 1 >= growth.p_.level_count();
-    bears_leaves_ = last_level && growth.p_.leaf_blos_num != 0;
+    const bool bears_stems =
+        !last_level && !(is_shown_ && growth.settings_.only_part && growth.settings_.only_part->alone);
+    bears_leaves_ = last_level && is_shown_ && growth.p_.leaf_blos_num != 0;
     in_batches_ = bears_leaves_ && LeafBatch::takes(stem, growth.p_);
     if (bears_leaves_)
       children_.emplace(stem, ChildPlacer::Bears::leaves, growth.p_);
-    else if (!last_level)
+    else if (bears_stems)
       children_.emplace(stem, ChildPlacer::Bears::stems, growth.p_);
+    if (bears_stems && (stem.cursor.changes_below() || !is_shown_))
+      changed_.emplace(*children_, growth.only_child(stem));
   }
 
   bool segment(const GrowingStem& stem, const Segment& segment) override {
-    append_knots(stem, segment, growth_.p_, growth_.plant_.knots);
+    if (is_shown_) append_knots(stem, segment, growth_.p_, growth_.plant_.knots);
     bear_children(stem, segment);
     return true;
   }
 
   /// Those of a stem that does not split.
   void all_segments(const GrowingStem& stem, std::span<const Segment> segments) {
-    append_knots(stem, segments, growth_.p_, growth_.plant_.knots);
+    if (is_shown_) append_knots(stem, segments, growth_.p_, growth_.plant_.knots);
     for (const Segment& segment : segments) bear_children(stem, segment);
   }
 
-  void split(const GrowingStem& clone) override { growth_.level_.push_back(clone); }
+  void split(const GrowingStem& clone) override {
+    if (!growth_.is_wanted(clone)) return;
+    growth_.level_.push_back(clone);
+    growth_.level_.back().origin = index_;
+  }
+
+  /// After the last segment.
+  void finish(const GrowingStem& stem) {
+    if (!changed_) return;
+    changed_->end(stem);
+    for (ChildSite site; changed_->next_waiting(site);) growth_.grow_child(stem, index_, site);
+  }
 
  private:
   void bear_children(const GrowingStem& stem, const Segment& segment) {
     if (!children_) return;
+    if (changed_) {
+      changed_->begin(stem, segment);
+      for (ChildSite site; changed_->next(site);) growth_.grow_child(stem, index_, site);
+      return;
+    }
     children_->begin(stem, segment);
     if (in_batches_) {
       growth_.batch_.add(stem, segment, *children_);
@@ -114,27 +151,33 @@ class Growth::StemGrowth : public StemVisitor {
   }
 
   Growth& growth_;
-  std::int32_t index_;
+  bool is_shown_;
+  std::int32_t index_;  ///< in the plant; -1 where the stem is not shown
   bool bears_leaves_ = false, in_batches_ = false;
   std::optional<ChildPlacer> children_;
+  std::optional<ChangedChildren> changed_;
 };
 
 /// Enters the stem into the plant's arrays; its knots follow.
 Growth::StemGrowth Growth::begin_stem(const GrowingStem& stem) {
+  if (!is_shown(stem)) return StemGrowth(*this, stem);
   plant_.stems.parent.push_back(stem.parent);
   plant_.stems.level.push_back(static_cast<std::uint8_t>(stem.level));
   plant_.stems.path_key.push_back(stem.key.value);
+  plant_.stems.origin.push_back(stem.origin);
+  plant_.stems.child_index.push_back(stem.child_index);
   return StemGrowth(*this, stem);
 }
 
-void Growth::end_stem() {
-  plant_.stems.first_knot.push_back(static_cast<std::uint32_t>(plant_.knots.size()));
+void Growth::end_stem(const GrowingStem& stem) {
+  if (is_shown(stem)) plant_.stems.first_knot.push_back(static_cast<std::uint32_t>(plant_.knots.size()));
 }
 
 void Growth::grow_stem(const GrowingStem& stem) {
   StemGrowth growth = begin_stem(stem);
   walk_stem(stem, p_, growth);
-  end_stem();
+  growth.finish(stem);
+  end_stem(stem);
 }
 
 void Growth::grow_stems(std::span<const GrowingStem> stems) {
@@ -142,14 +185,22 @@ void Growth::grow_stems(std::span<const GrowingStem> stems) {
   for (std::size_t i = 0; i < stems.size(); ++i) {
     StemGrowth growth = begin_stem(stems[i]);
     growth.all_segments(stems[i], stem_batch_.segments(i));
-    end_stem();
+    growth.finish(stems[i]);
+    end_stem(stems[i]);
   }
+}
+
+/// How many stems from `index` on, at most as many as a batch holds, no override bends.
+std::size_t Growth::batch_size(std::size_t index) const {
+  const std::size_t most = std::min<std::size_t>(StemBatch::kMostStems, level_.size() - index);
+  std::size_t count = 0;
+  while (count < most && level_[index + count].extra_curve_deg == 0) ++count;
+  return count;
 }
 
 /// One stem, or as many as a batch holds; how many.
 std::size_t Growth::grow_next(std::size_t index, bool in_batches) {
-  if (in_batches) {
-    const std::size_t count = std::min<std::size_t>(StemBatch::kMostStems, level_.size() - index);
+  if (const std::size_t count = in_batches ? batch_size(index) : 0; count > 0) {
     grow_stems(std::span(level_).subspan(index, count));
     return count;
   }
@@ -175,22 +226,27 @@ float Growth::child_radius_m(const GrowingStem& parent, const ChildSite& site, f
 void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, const ChildSite& site) {
   if (site.parent_radius_m < kThinnestParent_m) return;
   const int level = parent.level + 1;
+  const BranchChange* change = site.cursor.change();
   GrowingStem child;
-  child.key = child_key(parent.key, site.index);
+  child.child_index = static_cast<std::uint32_t>(site.index);
+  child.key = reseeded(child_key(parent.key, child.child_index), change ? change->seed : 0);
   child.level = level;
-  child.parent = parent_index;
+  child.parent = child.origin = parent_index;
+  child.path_length = parent.path_length + 1;
+  child.cursor = site.cursor;
+  child.extra_curve_deg = extra_curve_deg(change, level, p_);
   child.tree = parent.tree;
   child.turtle = site.turtle;
   child.offset_m = site.offset_m;
   child.parent_length_m = parent.length_m;
   child.parent_child_max = parent.child_max;
-  child.length_m = site.grown_fraction * child_length_m(parent, site);
+  child.length_m = changed(change, Quantity::length, site.grown_fraction * child_length_m(parent, site));
   if (child.length_m < kShortestStem_m) return;
   // [CH §3.2.1]: starts as close as is safe to the parent's surface; before pruning, which tests where it is.
   const float unpruned_radius_m = child_radius_m(parent, site, child.length_m);
   child.turtle.position_m += site.outward * (site.parent_radius_m - unpruned_radius_m);
   if (!prune(child)) return;
-  child.radius_m = child_radius_m(parent, site, child.length_m);
+  child.radius_m = changed(change, Quantity::radius, child_radius_m(parent, site, child.length_m));
   const int next = level_index(level + 1);
   child.child_max = p_.length[next] + draw_signed(child.key, Draw::child_length) * p_.length_v[next];
   next_level_.push_back(child);
@@ -198,7 +254,10 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
 
 /// False where nothing is left of the stem.
 bool Growth::prune(GrowingStem& stem) const {
-  stem.length_m = pruned_length_m(stem, p_, settings_.prune_to);
+  if (settings_.train && settings_.prune_to)
+    train_stem(stem, p_, *settings_.prune_to);
+  else
+    stem.length_m = pruned_length_m(stem, p_, settings_.prune_to);
   return stem.length_m >= kShortestStem_m;
 }
 
@@ -210,12 +269,37 @@ double Growth::over_budget_factor() const {
   return std::max(stems, leaves);
 }
 
+/// Whether the part asked for is on the stem, or the stem on the way to it.
+bool Growth::is_wanted(const GrowingStem& stem) const {
+  if (!settings_.only_part) return true;
+  const BranchPath& path = settings_.only_part->path;
+  const auto depth = static_cast<std::size_t>(stem.path_length);
+  return depth > path.size() ? !settings_.only_part->alone : path[depth - 1] == stem.child_index;
+}
+
+/// False where overrides remove the trunk.
+bool Growth::change_trunk(GrowingStem& trunk) const {
+  const BranchChange* change = trunk.cursor.change();
+  if (change == nullptr) return true;
+  trunk.key = reseeded(trunk.key, change->seed);
+  trunk.length_m = (*change)[Quantity::length].apply(trunk.length_m);
+  trunk.tree.base_length_m = trunk.length_m * p_.base_size[0];
+  trunk.turtle.roll_right((*change)[Quantity::rotation].apply(0));
+  trunk.turtle.pitch_down((*change)[Quantity::down_angle].apply(0));
+  trunk.extra_curve_deg = extra_curve_deg(change, 0, p_);
+  return !change->removed;
+}
+
 GrowthResult Growth::run(Seed seed) {
   plant_trunks(p_, root_key(seed), level_);
   plant_.tree_scale_m = level_.front().tree.scale_m;
+  const ChangeCursor above_trunks(settings_.changes);
   for (GrowingStem& trunk : level_) {
-    if (!prune(trunk)) trunk.length_m = 0;
-    trunk.radius_m = trunk.length_m * p_.ratio * p_.radius_mod[0];
+    trunk.child_index = static_cast<std::uint32_t>(&trunk - level_.data());
+    trunk.cursor = above_trunks.child(trunk.child_index);
+    if (!is_wanted(trunk) || !change_trunk(trunk) || !prune(trunk)) trunk.length_m = 0;
+    trunk.radius_m =
+        changed(trunk.cursor.change(), Quantity::radius, trunk.length_m * p_.ratio * p_.radius_mod[0]);
     trunk.child_max = p_.length[1] + draw_signed(trunk.key, Draw::child_length) * p_.length_v[1];
   }
   std::erase_if(level_, [](const GrowingStem& trunk) { return trunk.length_m < kShortestStem_m; });
