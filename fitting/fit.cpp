@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "fitting/fit_objective.h"
+#include "fitting/picture_choice.h"
 #include "fitting/plant_scorer.h"
 #include "fitting/record_task.h"
 #include "fitting/space_search.h"
@@ -72,19 +73,27 @@ std::optional<SpeciesSpace> space_of(const FitRecord& record, const Model& model
   return bundled_species_space(model, components);
 }
 
+/// A search that refinement had followed ends where it ended then.
+long evaluation_limit(const FitRecord& record, const fs::path& directory, const FitOptions& options) {
+  const auto reached = options.resume ? read_branch_rounds(directory) : std::nullopt;
+  return reached ? reached->search_evaluations : record.budget.evaluations;
+}
+
 /// One run: its state, its clock, and when it stops.
 class FitRun : public Observer {
  public:
   FitRun(const FitRecord& record, const FitTask& task, const fs::path& directory, const FitOptions& options)
       : record_(record),
+        threads_(options.threads > 0 ? options.threads : omp_get_num_procs()),
         task_(task),
         directory_(directory),
         options_(options),
-        state_{.record = record, .task = task},
+        state_{.record = record, .task = task, .kind = kind_of(record, task)},
+        choice_(choice_for(record, task)),
         log_(directory / "evaluations.bin"),
-        plant_scorer_(task, options.threads > 0 ? options.threads : omp_get_num_procs()),
+        plant_scorer_(task, threads_),
         scorer_(
-            plant_scorer_, log_, record.budget.evaluations, [this] { return seconds(); },
+            plant_scorer_, log_, evaluation_limit(record, directory, options), [this] { return seconds(); },
             [this](const ScoredBatch& batch) { on_scored(batch); }),
         renderer_(task.make_renderer()) {}
 
@@ -100,14 +109,23 @@ class FitRun : public Observer {
                       std::vector<double>& scores);
   MinimizeResult minimize(const Objective& objective, long evaluations, std::span<const double> points);
   void search(const std::vector<StartPoint>& starts, const std::vector<double>& scores);
+  bool will_refine() const { return record_.budget.branch_rounds != 0 && record_.fit_seeds == 1; }
+  bool search_time_is_over() const;
+  void refine();
+  void go_on_from(const BranchRounds& reached);
+  void note_round();
+  void add_to_trace(const RoundRow& row);
+  MaskMetrics untrained_metrics();
   void report_progress() const;
   FitResult finish();
 
   const FitRecord& record_;
+  int threads_;
   const FitTask& task_;
   fs::path directory_;
   const FitOptions& options_;
   RunState state_;
+  SearchChoice choice_;
   EvaluationLog log_;
   PlantScorer plant_scorer_;
   LoggedScorer scorer_;
@@ -122,9 +140,11 @@ class FitRun : public Observer {
 bool FitRun::stop_requested() {
   if (state_.stopped_by) return true;
   const FitBudget& budget = record_.budget;
-  if (scorer_.limit_reached())
+  const bool refining = !state_.branches.lanes.empty();
+  const double best_score = refining ? state_.best.score : scorer_.best().score;
+  if (!refining && scorer_.limit_reached())
     state_.stopped_by = "evaluations";
-  else if (budget.target_fitness > 0 && 1 - scorer_.best().score >= budget.target_fitness)
+  else if (budget.target_fitness > 0 && 1 - best_score >= budget.target_fitness)
     state_.stopped_by = "target_fitness";
   else if (scorer_.replaying())
     return false;
@@ -132,7 +152,13 @@ bool FitRun::stop_requested() {
     state_.stopped_by = "interrupted";
   else if (budget.seconds > 0 && seconds() >= budget.seconds)
     state_.stopped_by = "time";
-  return state_.stopped_by.has_value();
+  return state_.stopped_by.has_value() || search_time_is_over();
+}
+
+/// Where refinement follows for as long as time lasts.
+bool FitRun::search_time_is_over() const {
+  return record_.budget.branch_rounds == kWhileTimeLasts && will_refine() && state_.branches.lanes.empty() &&
+         seconds() >= kSearchShare * record_.budget.seconds;
 }
 
 void FitRun::on_scored(const ScoredBatch& batch) {
@@ -151,7 +177,7 @@ void FitRun::on_scored(const ScoredBatch& batch) {
 
 void FitRun::refresh_directory() {
   const double began = seconds();
-  state_.best = scorer_.best();
+  if (state_.branches.lanes.empty()) state_.best = scorer_.best();
   state_.evaluations = static_cast<long>(scorer_.evaluations());
   state_.seconds = began;
   write_run_directory(directory_, state_);
@@ -161,9 +187,10 @@ void FitRun::refresh_directory() {
 
 void FitRun::report_progress() const {
   const FitBudget& budget = record_.budget;
-  FitProgress progress{scorer_.evaluations(), seconds(), 1 - scorer_.best().score, {}};
+  const double score = state_.branches.lanes.empty() ? scorer_.best().score : state_.best.score;
+  FitProgress progress{scorer_.evaluations(), state_.branches.steps, seconds(), 1 - score, {}};
   if (budget.seconds > 0) progress.seconds_left = std::max(0.0, budget.seconds - progress.seconds);
-  if (budget.evaluations > 0) {
+  if (budget.evaluations > 0 && budget.branch_rounds == 0) {
     const auto left = static_cast<double>(budget.evaluations - progress.evaluations);
     const double by_count = left * progress.seconds / static_cast<double>(progress.evaluations);
     progress.seconds_left = std::min(by_count, progress.seconds_left.value_or(by_count));
@@ -203,7 +230,7 @@ void FitRun::search_species(const SpeciesSpace& species, std::vector<StartPoint>
   const auto prepare = [&](ParameterValues& values) {
     prepare_start(model, record_.growth, target_height_m(record_), task_.plant_seeds.front(), values);
     if (!has_leaves(model.table(), start)) take_leaves(model.table(), values);
-    apply_fixed(model.table(), record_.search, values);
+    apply_fixed(model.table(), choice_, values);
   };
   const SpaceObjective objective(species, start, prepare, scorer_);
   const std::vector<double> begin = objective.box().unit(coordinates_of(species, start));
@@ -219,7 +246,7 @@ void FitRun::search(const std::vector<StartPoint>& starts, const std::vector<dou
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return scores[a] < scores[b]; });
-  const SearchSpace space = make_search_space(task_.model->table(), starts[order[0]].values, record_.search,
+  const SearchSpace space = make_search_space(task_.model->table(), starts[order[0]].values, choice_,
                                               target_height_m(record_) / kNominalHeightM);
   dimension_ = space.dimension();
   if (stop_requested()) return;
@@ -233,15 +260,78 @@ void FitRun::search(const std::vector<StartPoint>& starts, const std::vector<dou
   if (!stop_requested()) state_.stopped_by = "converged";
 }
 
+/// Branch by branch, from the best of the search; what ended the search does not end this.
+void FitRun::refine() {
+  if (state_.stopped_by == "interrupted" || state_.stopped_by == "target_fitness") return;
+  state_.stopped_by.reset();
+  stage_ = "branches";
+  state_.best = scorer_.best();
+  const auto reached = options_.resume ? read_branch_rounds(directory_) : std::nullopt;
+  const Solution start{scorer_.best().values, task_.plant_seeds.front(), {}, scorer_.best().score};
+  if (reached)
+    go_on_from(*reached);
+  else {
+    state_.branches = begin_branch_rounds(task_, start, scorer_.evaluations());
+    note_round();
+  }
+  while (!stop_requested()) {
+    if (state_.branches.rounds == record_.budget.branch_rounds) {
+      state_.stopped_by = "rounds";
+      return;
+    }
+    refine_round(task_, record_.seed, threads_, state_.branches);
+    note_round();
+  }
+}
+
+/// The state that a run which was broken off had reached, and its rows of the trace.
+void FitRun::go_on_from(const BranchRounds& reached) {
+  state_.branches = reached;
+  for (const RoundRow& row : reached.history) add_to_trace(row);
+  if (reached.history.empty()) return;
+  seconds_before_ = reached.history.back().seconds;
+  live_since_ = Clock::now();
+}
+
+void FitRun::note_round() {
+  const Solution& best = state_.branches.best();
+  const std::vector<Mask> masks = draw_candidate(task_, best.values, *renderer_, best.overrides);
+  state_.branches.history.push_back(
+      {state_.branches.steps, seconds(), best.score, mean_metrics(task_, masks)});
+  add_to_trace(state_.branches.history.back());
+  if (seconds() - refreshed_at_ > std::max(kRefreshSeconds, refresh_cost_ / kRefreshShare))
+    refresh_directory();
+  report_progress();
+}
+
+void FitRun::add_to_trace(const RoundRow& row) {
+  const bool improved = row.score < state_.best.score;
+  state_.best.score = row.score;
+  state_.best_metrics = row.metrics;
+  state_.trace.add_round(scorer_.evaluations() + row.steps, row.seconds, improved, row.score, row.metrics,
+                         stage_);
+}
+
+/// Of the same parameters and overrides, grown as if there were no picture to grow into.
+MaskMetrics FitRun::untrained_metrics() {
+  FitTask free = task_;
+  free.growth.prune_to = nullptr;
+  free.growth.train = false;
+  return mean_metrics(free, draw_candidate(free, state_.best.values, *renderer_, best_overrides(state_)));
+}
+
 FitResult FitRun::finish() {
+  if (task_.growth.train) state_.metrics_untrained = untrained_metrics();
   refresh_directory();
   const auto best_start =
       std::max_element(state_.starts.begin(), state_.starts.end(),
                        [](const auto& a, const auto& b) { return a.fitness < b.fitness; });
   return {.values = state_.best.values,
           .fitness = 1 - state_.best.score,
+          .overrides = best_overrides(state_),
           .metrics = state_.best_metrics,
           .evaluations = state_.evaluations,
+          .branch_steps = state_.branches.steps,
           .seconds = state_.seconds,
           .stopped_by = *state_.stopped_by,
           .best_start = best_start->name,
@@ -252,6 +342,7 @@ FitResult FitRun::run(std::vector<StartPoint> starts, const std::optional<Specie
   std::vector<double> scores = score_starts(starts);
   if (species) search_species(*species, starts, scores);
   search(starts, scores);
+  if (will_refine()) refine();
   return finish();
 }
 
@@ -266,8 +357,8 @@ FitResult fit(const FitRecord& given, const fs::path& directory, const FitOption
   const std::optional<SpeciesSpace> species = space_of(record, *task.model);
   check_searches(record, make_search_space(table, table.defaults(), record.search), species);
   const std::vector<StartPoint> starts =
-      make_start_points(*task.model, record.start, record.search, record.growth, target_height_m(record),
-                        task.plant_seeds.front());
+      make_start_points(*task.model, record.start, choice_for(record, task), record.growth,
+                        target_height_m(record), task.plant_seeds.front());
   begin_run_directory(directory, {.record = record, .task = task});
   return FitRun(record, task, directory, options).run(starts, species);
 }

@@ -13,7 +13,7 @@
 namespace espalier {
 
 struct FitProgress {
-  long evaluations = 0;
+  long evaluations = 0, branch_steps = 0;
   double seconds = 0, best_fitness = 0;
   std::optional<double> seconds_left;  ///< of whichever limit comes first, if it can be told
 };
@@ -30,9 +30,10 @@ struct FitOptions {
 
 struct FitResult {
   ParameterValues values;
-  double fitness = 0;  ///< 1 - dissimilarity
+  double fitness = 0;   ///< 1 - dissimilarity
+  Overrides overrides;  ///< of the branches that were refined
   MaskMetrics metrics;
-  long evaluations = 0;
+  long evaluations = 0, branch_steps = 0;
   double seconds = 0;
   std::string stopped_by;  ///< "evaluations", "time", "target_fitness", "interrupted", "converged"
   std::string best_start;

@@ -29,6 +29,12 @@ void check_view(const ViewRecord& view) {
   check_number("--views", view.view.field_of_view_deg, 1, 150, "a field of view in degrees, 1..150");
 }
 
+void check_kind(const std::string& kind) {
+  const std::vector<std::string> known = {"auto", "any", "leafy", "leafless", "palm"};
+  if (std::find(known.begin(), known.end(), kind) == known.end())
+    throw_input_error("--kind: got '{}', expected {}", kind, fmt::join(known, ", "));
+}
+
 ViewRecord read_view(const TomlSection& section) {
   ViewRecord record{section.text("picture"), {}};
   record.view.azimuth_deg = static_cast<float>(section.number("azimuth_deg"));
@@ -55,6 +61,7 @@ void read_budget(const TomlSection& section, FitRecord& record) {
   record.budget.evaluations = section.whole("evaluations");
   record.budget.seconds = section.number("seconds");
   record.budget.target_fitness = section.number("target_fitness");
+  record.budget.branch_rounds = section.whole_or("branch_rounds", 0);  // earlier versions have none
   record.growth.max_stems = section.number("max_stems");
   record.growth.max_leaves = section.number("max_leaves");
 }
@@ -70,7 +77,8 @@ void read_search(const TomlSection& section, FitRecord& record) {
 std::optional<FitOutcome> read_outcome(const TomlSection& section) {
   if (!section.table.contains("outcome")) return std::nullopt;
   const TomlSection outcome = section.section("outcome");
-  return FitOutcome{outcome.whole("evaluations"), outcome.text("stopped_by")};
+  return FitOutcome{outcome.whole("evaluations"), outcome.whole_or("branch_rounds", 0),
+                    outcome.text("stopped_by")};
 }
 
 // Writing: in the order a person reads it.
@@ -112,11 +120,11 @@ std::string target_to_toml(const FitRecord& record) {
 
 std::string budget_to_toml(const FitRecord& record) {
   return fmt::format(
-      "\n[budget]  # 0: no limit\nevaluations = {}\nseconds = {}\ntarget_fitness = {}\nmax_stems = {}\n"
-      "max_leaves = {}\n",
+      "\n[budget]  # 0: no limit\nevaluations = {}\nseconds = {}\ntarget_fitness = {}\n"
+      "branch_rounds = {}  # after the search; -1: as many as time allows\nmax_stems = {}\nmax_leaves = {}\n",
       record.budget.evaluations, toml_number(record.budget.seconds),
-      toml_number(record.budget.target_fitness), toml_number(record.growth.max_stems),
-      toml_number(record.growth.max_leaves));
+      toml_number(record.budget.target_fitness), record.budget.branch_rounds,
+      toml_number(record.growth.max_stems), toml_number(record.growth.max_leaves));
 }
 
 std::string space_to_toml(const FitRecord& record) {
@@ -157,6 +165,7 @@ void check_record(const FitRecord& record) {
                     record.optimizer_settings);
   parse_objective(record.objective);
   parse_search_space(record.space);
+  check_kind(record.kind);
   check_number("--space-evaluations", static_cast<double>(record.space_evaluations), 1, 1e9,
                "a whole number from 1");
   const FitBudget& budget = record.budget;
@@ -165,6 +174,10 @@ void check_record(const FitRecord& record) {
   check_number("--target-fitness", budget.target_fitness, 0, 1, "a number above 0, at most 1");
   if (budget.evaluations == 0 && budget.seconds == 0)
     throw_input_error("fit: got no budget, expected --seconds or --evaluations above 0");
+  check_number("--branch-rounds", static_cast<double>(budget.branch_rounds), kWhileTimeLasts, 1e9,
+               "a whole number from 0");
+  if (budget.branch_rounds == kWhileTimeLasts && budget.seconds == 0)
+    throw_input_error("fit: got branch rounds without an end, expected --seconds or --branch-rounds");
   check_number("--max-stems", record.growth.max_stems, 1, 1e7, "a number 1..1e7");
   check_number("--max-leaves", record.growth.max_leaves, 1, 1e7, "a number 1..1e7");
   check_number("--fit-seeds", record.fit_seeds, 1, 1000, "a whole number 1..1000");
@@ -177,13 +190,14 @@ std::string record_to_toml(const FitRecord& record, const std::optional<FitOutco
   text += fmt::format("format = {}\nmodel = {}\nobjective = {}\noptimizer = {}\nseed = {}\nfit_seeds = {}\n",
                       kFormat, quote_toml(record.model), quote_toml(record.objective),
                       quote_toml(record.optimizer), static_cast<std::int64_t>(record.seed), record.fit_seeds);
+  text += fmt::format("kind = {}\ntrain_to_target = {}\n", quote_toml(record.kind), record.train_to_target);
   if (record.height_m) text += fmt::format("height_m = {}\n", toml_number(*record.height_m));
   text += views_to_toml(record) + target_to_toml(record) + budget_to_toml(record) + search_to_toml(record);
   text += "\n[optimizer_settings]\n" + numbers_to_toml(record.optimizer_settings);
   text += versions_to_toml(record);
   if (outcome)
-    text += fmt::format("\n[outcome]\nevaluations = {}\nstopped_by = {}\n", outcome->evaluations,
-                        quote_toml(outcome->stopped_by));
+    text += fmt::format("\n[outcome]\nevaluations = {}\nbranch_rounds = {}\nstopped_by = {}\n",
+                        outcome->evaluations, outcome->branch_rounds, quote_toml(outcome->stopped_by));
   return text;
 }
 
@@ -198,6 +212,8 @@ RecordedRun read_record(const std::filesystem::path& path) {
   record.optimizer = root.text("optimizer");
   record.seed = static_cast<Seed>(root.whole("seed"));
   record.fit_seeds = static_cast<int>(root.whole("fit_seeds"));
+  record.kind = root.text_or("kind", record.kind);  // earlier versions have neither
+  if (document.contains("train_to_target")) record.train_to_target = root.flag("train_to_target");
   if (document.contains("height_m")) record.height_m = root.number("height_m");
   read_views(root, record);
   read_target_options(root.section("target"), record);

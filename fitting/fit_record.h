@@ -26,7 +26,12 @@ struct FitBudget {
   long evaluations = 0;
   double seconds = 60;
   double target_fitness = 0;  ///< 1 - dissimilarity, in (0, 1]; 0: none
+  long branch_rounds = 0;  ///< of the refinement that follows the search, at most; kWhileTimeLasts: no limit
 };
+
+/// Rounds of refinement until the seconds are over, of which the search then takes kSearchShare.
+inline constexpr long kWhileTimeLasts = -1;
+inline constexpr double kSearchShare = 0.4;
 
 struct FitRecord {
   std::string model = "weber_penn";
@@ -44,13 +49,17 @@ struct FitRecord {
   std::string space;  ///< "species:2": search two coordinates of the species space first; empty: do not
   long space_evaluations = 300;  ///< most of that first search
   SearchChoice search;
+  std::string kind =
+      "any";  ///< of tree: "auto" reads it off the picture; "any" searches with and without leaves
+  bool train_to_target = false;  ///< keep the tree inside of the pictures' outlines
   std::optional<double> height_m;
   std::map<std::string, std::string> versions;  ///< of the program and its libraries
 };
 
 /// What a finished run adds to its record.
 struct FitOutcome {
-  long evaluations = 0;
+  long evaluations = 0;    ///< of the search
+  long branch_rounds = 0;  ///< of the refinement
   std::string stopped_by;
 };
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "image/frame.h"
+#include "overrides/change_graph.h"
 
 namespace espalier {
 
@@ -15,16 +16,19 @@ TargetView make_target_view(const Mask& mask, float tree_height_px, const View& 
   const auto metres_per_px = static_cast<float>(seen_height_m / tree_height_px);
   const int size_px = mask.width_px();
   return {frame_base({0, 0, 0}, view, metres_per_px, size_px, size_px, base_row_px(size_px)),
-          PreparedTarget(mask)};
+          PreparedTarget(mask), metres_per_px};
 }
 
 std::vector<Mask> draw_candidate(const FitTask& task, const ParameterValues& values,
-                                 SilhouetteRenderer& renderer) {
+                                 SilhouetteRenderer& renderer, const Overrides& overrides) {
   std::vector<Mask> masks;
   Plant plant;
+  const ChangeGraph changes(overrides);
+  GrowthSettings growth = task.growth;
+  growth.changes = &changes;
   for (const Seed seed : task.plant_seeds) {
     plant.clear();
-    const bool grown = task.model->generate(values, seed, task.growth, plant).grown;
+    const bool grown = task.model->generate(values, seed, growth, plant).grown;
     for (const TargetView& view : task.views) {
       masks.emplace_back(view.camera.width_px, view.camera.height_px);
       if (grown) renderer.draw(plant, view.camera, masks.back());
@@ -43,6 +47,7 @@ MaskMetrics mean_metrics(const FitTask& task, const std::vector<Mask>& masks) {
     mean.dice += weight * one.dice;
     mean.tolerant_iou += weight * one.tolerant_iou;
     mean.outline_iou += weight * one.outline_iou;
+    mean.gap_iou += weight * one.gap_iou;
     mean.truncated_distance += weight * one.truncated_distance;
   }
   return mean;

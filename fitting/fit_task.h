@@ -7,6 +7,7 @@
 
 #include "core/random.h"
 #include "image/compare.h"
+#include "overrides/overrides.h"
 #include "plant/model.h"
 #include "render/camera.h"
 #include "render/silhouette.h"
@@ -21,6 +22,7 @@ using RendererFactory = std::function<std::unique_ptr<SilhouetteRenderer>()>;
 struct TargetView {
   Camera camera;
   PreparedTarget target;
+  float metres_per_px = 0;  ///< in the plane through the base
 };
 
 /// A target mask whose tree, `tree_height_px` tall with its base at base_row_px, is `height_m` tall.
@@ -32,13 +34,14 @@ struct FitTask {
   std::vector<Seed> plant_seeds;
   std::vector<TargetView> views;
   MaskObjective objective;
+  std::shared_ptr<const Volume> envelope;  ///< what growth.prune_to points to, if the tree is trained
   RendererFactory make_renderer = make_scanline_renderer;
 };
 
 /// The silhouettes of one candidate: seed by seed, and for each seed view by view. Empty masks where
 /// the growth budget refuses the candidate.
 std::vector<Mask> draw_candidate(const FitTask& task, const ParameterValues& values,
-                                 SilhouetteRenderer& renderer);
+                                 SilhouetteRenderer& renderer, const Overrides& overrides = {});
 
 /// All metrics, averaged over masks in the order of draw_candidate.
 MaskMetrics mean_metrics(const FitTask& task, const std::vector<Mask>& masks);

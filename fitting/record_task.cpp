@@ -1,6 +1,7 @@
 #include "fitting/record_task.h"
 
 #include "core/error.h"
+#include "environment/picture_envelope.h"
 #include "image/read_target.h"
 #include "models/models.h"
 
@@ -34,6 +35,15 @@ void read_views(FitRecord& record, FitTask& task) {
   record.target_hash = hash_text;
 }
 
+/// Keeps the tree inside of the targets' closed and filled outlines.
+void grow_into_pictures(FitTask& task) {
+  std::vector<PictureOutline> outlines;
+  for (const TargetView& view : task.views) outlines.push_back({view.camera, view.target.outline()});
+  task.envelope = make_picture_envelope(std::move(outlines));
+  task.growth.prune_to = task.envelope.get();
+  task.growth.train = true;
+}
+
 }  // namespace
 
 double target_height_m(const FitRecord& record) { return record.height_m.value_or(kNominalHeightM); }
@@ -45,6 +55,7 @@ FitTask make_task(FitRecord& record, const Model* model) {
   task.objective = parse_objective(record.objective);
   for (int i = 0; i < record.fit_seeds; ++i) task.plant_seeds.push_back(record.seed + static_cast<Seed>(i));
   read_views(record, task);
+  if (record.train_to_target) grow_into_pictures(task);
   return task;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "image/frame.h"
 #include "image/picture.h"
 #include "models/preset.h"
 
@@ -16,6 +17,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kOverlayPx = 512;  ///< overlays are enlarged to about this
+
+constexpr const char* kBranchesFile = "branches.json";
 
 /// "best.png" for the first mask, "best_2.png" for the second.
 fs::path numbered(const fs::path& directory, const std::string& stem, std::size_t index) {
@@ -29,24 +32,38 @@ Picture enlarged(const Picture& picture, int factor) {
   return large;
 }
 
+/// The outlines a trained tree was grown into, as its preset names them.
+std::vector<GrownInto> grown_into(const RunState& state) {
+  std::vector<GrownInto> pictures;
+  if (!state.record.train_to_target) return pictures;
+  for (std::size_t i = 0; i < state.task.views.size(); ++i) {
+    const TargetView& view = state.task.views[i];
+    pictures.push_back({numbered({}, "outline", i), state.record.views[i].view, view.metres_per_px,
+                        base_row_px(view.camera.height_px)});
+  }
+  return pictures;
+}
+
 std::string best_to_toml(const RunState& state) {
   const std::string stem = state.record.views.front().picture.stem().string();
   return preset_to_toml({stem + "_fit",
                          fmt::format("fitted to {} with {}, seed {}: fitness {:.4f}",
                                      state.record.views.front().picture.filename().string(),
                                      state.record.optimizer, state.record.seed, 1 - state.best.score),
-                         state.record.model, state.best.values});
+                         state.record.model, state.best.values, best_overrides(state), grown_into(state)});
 }
 
 std::optional<FitOutcome> outcome_of(const RunState& state) {
   if (!state.stopped_by) return std::nullopt;
-  return FitOutcome{state.evaluations, *state.stopped_by};
+  return FitOutcome{state.evaluations, state.branches.rounds, *state.stopped_by};
 }
 
 /// The first seed's masks of all views.
 void write_best_pictures(const fs::path& directory, RunState& state) {
-  const std::vector<Mask> best = draw_candidate(state.task, state.best.values, *state.task.make_renderer());
-  const std::vector<Mask> reference = draw_candidate(state.task, state.best.values, *make_embree_renderer());
+  const auto draw = [&](SilhouetteRenderer& renderer) {
+    return draw_candidate(state.task, state.best.values, renderer, best_overrides(state));
+  };
+  const std::vector<Mask> best = draw(*state.task.make_renderer()), reference = draw(*make_embree_renderer());
   state.embree_disagreement_px = 0;
   for (std::size_t i = 0; i < state.task.views.size(); ++i) {
     const Mask& target = state.task.views[i].target.mask();
@@ -65,6 +82,18 @@ void write_history(const fs::path& directory, const RunState& state) {
 }
 
 }  // namespace
+
+const Overrides& best_overrides(const RunState& state) {
+  static const Overrides kNone;
+  return state.branches.lanes.empty() ? kNone : state.branches.best().overrides;
+}
+
+std::optional<BranchRounds> read_branch_rounds(const fs::path& directory) {
+  const fs::path file = directory / kBranchesFile;
+  std::error_code error;
+  if (!fs::exists(file, error)) return std::nullopt;
+  return branch_rounds_from_json(read_file(file), file.string());
+}
 
 void check_new_directory(const fs::path& directory) {
   std::error_code error;
@@ -99,11 +128,16 @@ void begin_run_directory(const fs::path& directory, const RunState& state) {
   write_file_atomically(directory / "run.toml", record_to_toml(state.record, std::nullopt));
   for (std::size_t i = 0; i < state.task.views.size(); ++i)
     write_mask_png(numbered(directory, "target", i), state.task.views[i].target.mask());
+  for (std::size_t i = 0; i < state.task.views.size() && state.record.train_to_target; ++i)
+    write_mask_png(numbered(directory, "outline", i), state.task.views[i].target.outline());
 }
 
 void write_run_directory(const fs::path& directory, RunState& state) {
   write_best_pictures(directory, state);
   write_file_atomically(directory / "best.toml", best_to_toml(state));
+  if (!state.branches.lanes.empty())
+    write_file_atomically(directory / kBranchesFile,
+                          branch_rounds_to_json(state.branches, state.record.model));
   write_history(directory, state);
   write_file_atomically(directory / "summary.json", run_summary(state));
   write_file_atomically(directory / "run.toml", record_to_toml(state.record, outcome_of(state)));
@@ -115,10 +149,21 @@ std::string run_summary(const RunState& state) {
   summary["iou"] = state.best_metrics.iou;
   summary["tolerant_iou"] = state.best_metrics.tolerant_iou;
   summary["outline_iou"] = state.best_metrics.outline_iou;
+  summary["gap_iou"] = state.best_metrics.gap_iou;
   summary["pixel_accuracy"] = state.best_metrics.pixel_accuracy;
   summary["dice"] = state.best_metrics.dice;
   summary["truncated_distance"] = state.best_metrics.truncated_distance;
   summary["evaluations"] = state.evaluations;
+  summary["branch_rounds"] = state.branches.rounds;
+  summary["branch_steps"] = state.branches.steps;
+  summary["kind"] = state.kind;
+  summary["trained_to_target"] = state.record.train_to_target;
+  if (state.metrics_untrained) {
+    summary["without_training"] = {{"iou", state.metrics_untrained->iou},
+                                   {"tolerant_iou", state.metrics_untrained->tolerant_iou},
+                                   {"outline_iou", state.metrics_untrained->outline_iou},
+                                   {"gap_iou", state.metrics_untrained->gap_iou}};
+  }
   summary["best_at_evaluation"] = state.best.evaluation;
   summary["seconds"] = state.seconds;
   summary["evaluations_per_second"] =

@@ -9,6 +9,7 @@
 #include "fitting/fit_record.h"
 #include "fitting/fit_task.h"
 #include "fitting/logged_scorer.h"
+#include "fitting/stages/branch_rounds.h"
 #include "fitting/trace.h"
 
 namespace espalier {
@@ -27,11 +28,20 @@ struct RunState {
   BestCandidate best = {};
   MaskMetrics best_metrics = {};
   Trace trace = {};
+  BranchRounds branches = {};                         ///< of the refinement; no lanes before it begins
+  std::string kind = {};                              ///< of the tree, as it was read off the picture
+  std::optional<MaskMetrics> metrics_untrained = {};  ///< of the same tree grown without the envelope
   long evaluations = 0;
   double seconds = 0;
   std::optional<std::string> stopped_by = {};  ///< none while it runs
   std::size_t embree_disagreement_px = 0;
 };
+
+/// What the branches of the best tree are overridden by.
+const Overrides& best_overrides(const RunState& state);
+
+/// The refinement that a run in the directory had reached; none where it had not begun.
+std::optional<BranchRounds> read_branch_rounds(const std::filesystem::path& directory);
 
 /// Throws InputError unless `directory` is missing or empty, and not a file.
 void check_new_directory(const std::filesystem::path& directory);

@@ -37,16 +37,31 @@ void Trace::add(const ScoredBatch& batch, double best_score, const MaskMetrics& 
   pending_scores_.clear();
 }
 
+void Trace::add_round(long evaluations, double seconds, bool improved, double best_score,
+                      const MaskMetrics& best_metrics, const std::string& stage) {
+  const double fitness = 1 - best_score;
+  rows_.push_back({.evaluations = evaluations,
+                   .seconds = seconds,
+                   .improved = improved,
+                   .best = fitness,
+                   .batch_best = fitness,
+                   .batch_median = fitness,
+                   .batch_worst = fitness,
+                   .metrics = best_metrics,
+                   .stage = stage});
+}
+
 std::string trace_to_csv(const std::vector<TraceRow>& rows) {
   std::string csv =
       "evaluations,seconds,event,best,batch_best,batch_median,batch_worst,"
-      "pixel_accuracy,iou,dice,tolerant_iou,outline_iou,truncated_distance,stage\n";
+      "pixel_accuracy,iou,dice,tolerant_iou,outline_iou,gap_iou,truncated_distance,stage\n";
   for (const TraceRow& row : rows)
-    csv += fmt::format(
-        "{},{:.3f},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{}\n",
-        row.evaluations, row.seconds, row.improved ? "improvement" : "batch", row.best, row.batch_best,
-        row.batch_median, row.batch_worst, row.metrics.pixel_accuracy, row.metrics.iou, row.metrics.dice,
-        row.metrics.tolerant_iou, row.metrics.outline_iou, row.metrics.truncated_distance, row.stage);
+    csv +=
+        fmt::format("{},{:.3f},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{}\n",
+                    row.evaluations, row.seconds, row.improved ? "improvement" : "batch", row.best,
+                    row.batch_best, row.batch_median, row.batch_worst, row.metrics.pixel_accuracy,
+                    row.metrics.iou, row.metrics.dice, row.metrics.tolerant_iou, row.metrics.outline_iou,
+                    row.metrics.gap_iou, row.metrics.truncated_distance, row.stage);
   return csv;
 }
 

@@ -28,6 +28,9 @@ class Trace {
   /// best_metrics: of the best candidate after this batch, whose score is `best_score`. stage: of the run.
   void add(const ScoredBatch& batch, double best_score, const MaskMetrics& best_metrics,
            const std::string& stage = "search");
+  /// A row of a stage whose evaluations are not scored in batches.
+  void add_round(long evaluations, double seconds, bool improved, double best_score,
+                 const MaskMetrics& best_metrics, const std::string& stage);
   const std::vector<TraceRow>& rows() const { return rows_; }
 
  private:

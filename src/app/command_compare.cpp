@@ -45,6 +45,7 @@ void print_text(const CompareOptions& options, const MaskPair& pair, const MaskM
   fmt::print("dice                {:.6f}\n", metrics.dice);
   fmt::print("tolerant_iou        {:.6f}\n", metrics.tolerant_iou);
   fmt::print("outline_iou         {:.6f}\n", metrics.outline_iou);
+  fmt::print("gap_iou             {:.6f}\n", metrics.gap_iou);
   fmt::print("truncated_distance  {:.6f}\n", metrics.truncated_distance);
 }
 
@@ -59,6 +60,7 @@ void print_json(const CompareOptions& options, const MaskPair& pair, const MaskM
                                        {"dice", metrics.dice},
                                        {"tolerant_iou", metrics.tolerant_iou},
                                        {"outline_iou", metrics.outline_iou},
+                                       {"gap_iou", metrics.gap_iou},
                                        {"truncated_distance", metrics.truncated_distance}};
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }

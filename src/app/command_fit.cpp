@@ -22,6 +22,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDefaultPicture = "targets/fir.png";
 
+/// Distance and overlap lead there; outline and gaps keep a fit from filling a porous crown
+/// (experiments/closeness.md).
+constexpr const char* kObjective =
+    "0.3*truncated_distance+0.2*iou+0.15*tolerant_iou+0.2*outline_iou+0.15*gap_iou";
+
 struct FitArguments {
   FitRecord record;
   std::string image, out, resume, repeat;
@@ -35,8 +40,9 @@ struct FitArguments {
 std::string progress_text(const FitProgress& progress) {
   const std::string left =
       progress.seconds_left ? fmt::format(", {:.0f} s left", std::ceil(*progress.seconds_left)) : "";
-  return fmt::format("{} evaluations, {:.0f}/s, best fitness {:.4f}{}", progress.evaluations,
-                     static_cast<double>(progress.evaluations) / std::max(progress.seconds, 1e-9),
+  const std::string branches =
+      progress.branch_steps > 0 ? fmt::format(", {} branch steps", progress.branch_steps) : "";
+  return fmt::format("{} evaluations{}, best fitness {:.4f}{}", progress.evaluations, branches,
                      progress.best_fitness, left);
 }
 
@@ -88,6 +94,20 @@ void set_budget(const CLI::App& command, FitBudget& budget) {
                       budget.target_fitness);
 }
 
+/// Without a limit of time, refinement needs one of its own.
+void set_branch_rounds(const CLI::App& command, FitRecord& record) {
+  constexpr long kWithoutTime = 24;
+  long& rounds = record.budget.branch_rounds;
+  if (command.count("--branch-rounds") == 0)
+    rounds = record.fit_seeds > 1 ? 0 : record.budget.seconds > 0 ? kWhileTimeLasts : kWithoutTime;
+  else if (rounds < 0)
+    throw_input_error("--branch-rounds: got {}, expected a whole number from 0", rounds);
+  else if (rounds > 0 && record.fit_seeds > 1)
+    throw_input_error(
+        "--branch-rounds: got {} with --fit-seeds {}, expected one seed: branches belong to one tree", rounds,
+        record.fit_seeds);
+}
+
 FitRecord new_record(const CLI::App& command, const FitArguments& arguments) {
   FitRecord record = arguments.record;
   record.views = views_of(arguments);
@@ -99,6 +119,7 @@ FitRecord new_record(const CLI::App& command, const FitArguments& arguments) {
   record.target.side = parse_tree_side(arguments.tree_side);
   if (command.count("--height") > 0) record.height_m = arguments.height_m;
   set_budget(command, record.budget);
+  set_branch_rounds(command, record);
   return record;
 }
 
@@ -118,7 +139,11 @@ FitRecord resumed_record(const CLI::App& command, const FitArguments& arguments)
 FitRecord repeated_record(const std::string& directory) {
   check_run_directory(directory);
   auto [record, outcome] = read_record(fs::path(directory) / "run.toml");
-  if (outcome) record.budget = {.evaluations = outcome->evaluations, .seconds = 0, .target_fitness = 0};
+  if (outcome)
+    record.budget = {.evaluations = outcome->evaluations,
+                     .seconds = 0,
+                     .target_fitness = 0,
+                     .branch_rounds = outcome->branch_rounds};
   return record;
 }
 
@@ -133,11 +158,14 @@ fs::path unused_directory(const FitRecord& record) {
 }
 
 void print_result(const FitResult& result, const FitRecord& record, const fs::path& directory) {
-  fmt::print("fitness {:.4f}, IoU {:.4f}, tolerant IoU {:.4f}, outline IoU {:.4f}\n", result.fitness,
-             result.metrics.iou, result.metrics.tolerant_iou, result.metrics.outline_iou);
+  fmt::print("fitness {:.4f}, IoU {:.4f}, tolerant IoU {:.4f}, outline IoU {:.4f}, gap IoU {:.4f}\n",
+             result.fitness, result.metrics.iou, result.metrics.tolerant_iou, result.metrics.outline_iou,
+             result.metrics.gap_iou);
   fmt::print("{} evaluations in {:.1f} s with {} over {} parameters, stopped by {}; best start: {}\n",
              result.evaluations, result.seconds, record.optimizer, result.dimension, result.stopped_by,
              result.best_start);
+  if (result.branch_steps > 0)
+    fmt::print("{} branches refined in {} steps\n", result.overrides.nodes.size(), result.branch_steps);
   fmt::print("files: {} (best.toml, best.png, overlay.png, convergence.png, summary.json)\n",
              directory.string());
 }
@@ -186,6 +214,7 @@ void add_search_options(CLI::App& command, FitArguments& arguments) {
                   fmt::format("method of the search: {}", fmt::join(methods, ", ")))
       ->capture_default_str();
   command.add_option("--set-optimizer", arguments.settings, "a setting of the method: name=value");
+  record.objective = kObjective;
   command.add_option("--objective", record.objective, "weighted sum of measures to minimise")
       ->capture_default_str();
   command.add_option("--fit-seeds", record.fit_seeds, "trees grown per candidate, averaged")
@@ -204,6 +233,13 @@ void add_search_options(CLI::App& command, FitArguments& arguments) {
       ->capture_default_str();
   command.add_option("--max-leaves", record.growth.max_leaves, "leaves a candidate may have")
       ->capture_default_str();
+  record.kind = "auto";
+  command
+      .add_option("--kind", record.kind,
+                  "of tree: auto (read off the picture), any, leafy, leafless (never any leaves), palm")
+      ->capture_default_str();
+  command.add_flag("--train-to-target", record.train_to_target,
+                   "keep the tree inside of the picture's outline: stems are shortened, bent, or cut");
   command.add_option("--seed", record.seed, "of the search, and of the first tree")->capture_default_str();
 }
 
@@ -211,6 +247,9 @@ void add_run_options(CLI::App& command, FitArguments& arguments) {
   FitBudget& budget = arguments.record.budget;
   command.add_option("--seconds", budget.seconds, "time to search")->capture_default_str();
   command.add_option("--evaluations", budget.evaluations, "stop after this many (alone: no limit of time)");
+  command.add_option("--branch-rounds", budget.branch_rounds,
+                     "rounds of branch by branch refinement after the search (default: as time allows, 24 "
+                     "without a limit of time; 0: none)");
   command.add_option("--target-fitness", budget.target_fitness, "stop once the best is this good, 0..1");
   command.add_option("--out", arguments.out, "directory to make (default: runs/IMAGE-SEED)");
   command.add_option("--threads", arguments.threads, "0: one per processor; changes the speed only")
@@ -220,10 +259,14 @@ void add_run_options(CLI::App& command, FitArguments& arguments) {
   CLI::Option* resume =
       command.add_option("--resume", arguments.resume, "go on with the run in this directory");
   CLI::Option* repeat = command.add_option("--repeat", arguments.repeat, "repeat the run in this directory");
-  for (const char* other :
-       {"image", "--views", "--out", "--seed", "--size", "--height", "--separation", "--tree-side",
-        "--optimizer", "--set-optimizer", "--objective", "--fit-seeds", "--start", "--space",
-        "--space-evaluations", "--free", "--fix", "--max-stems", "--max-leaves"}) {
+  for (const char* other : {"image",           "--views",     "--out",
+                            "--seed",          "--size",      "--height",
+                            "--separation",    "--tree-side", "--optimizer",
+                            "--set-optimizer", "--objective", "--fit-seeds",
+                            "--start",         "--space",     "--space-evaluations",
+                            "--free",          "--fix",       "--max-stems",
+                            "--max-leaves",    "--kind",      "--train-to-target",
+                            "--branch-rounds"}) {
     resume->excludes(command.get_option(other));
     if (std::string(other) != "--out") repeat->excludes(command.get_option(other));
   }

@@ -3,11 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "app/commands.h"
 #include "models/models.h"
 #include "models/preset.h"
+#include "overrides/change_graph.h"
+#include "overrides/overrides_tree.h"
 
 namespace espalier {
 
@@ -38,11 +41,31 @@ void check_file(const std::string& file) {
   fmt::print("ok {}: {}, model {}, height {}\n", file, preset.name, preset.model, height_text(preset));
 }
 
+/// The overrides of single branches as a tree in comments; dormant ones are those that do not grow with
+/// seed 1.
+std::string branches_text(const Preset& preset) {
+  const ChangeGraph changes(preset.overrides);
+  const std::unique_ptr<Volume> envelope = envelope_of(preset.grown_into);
+  GrowthSettings settings{.prune_to = envelope.get(), .train = true, .changes = &changes};
+  Plant plant;
+  model_by_name(preset.model).generate(preset.values, 1, settings, plant);
+  std::set<BranchPath> grown;
+  for (std::size_t stem = 0; stem < plant.stems.size(); ++stem) grown.insert(path_of(plant, stem));
+  return "\n# Branches that are overridden, as they grow with seed 1:\n" +
+         overrides_tree(
+             preset.overrides, [&](const BranchPath& path) { return grown.contains(path); }, "# ");
+}
+
+void print_preset(const Preset& preset) {
+  fmt::print("{}", preset_to_toml(preset));
+  if (!preset.overrides.empty()) fmt::print("{}", branches_text(preset));
+}
+
 void run_species(const SpeciesOptions& options) {
   if (!options.file_to_check.empty())
     check_file(options.file_to_check);
   else if (!options.preset.empty())
-    fmt::print("{}", preset_to_toml(load_preset(options.preset)));
+    print_preset(load_preset(options.preset));
   else
     list_species();
 }

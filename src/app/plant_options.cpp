@@ -8,6 +8,7 @@
 #include "environment/volume.h"
 #include "models/models.h"
 #include "models/preset.h"
+#include "overrides/change_graph.h"
 
 namespace espalier {
 
@@ -61,9 +62,13 @@ Plant grow_plant(const PlantOptions& options) {
   Preset preset = load_preset(options.preset);
   const Model& model = model_by_name(preset.model);
   for (const std::string& assignment : options.assignments) assign(assignment, model.table(), preset.values);
-  const std::unique_ptr<Volume> volume = options.prune_to.empty() ? nullptr : parse_volume(options.prune_to);
+  const std::unique_ptr<Volume> volume =
+      options.prune_to.empty() ? envelope_of(preset.grown_into) : parse_volume(options.prune_to);
   GrowthSettings settings;
   settings.prune_to = volume.get();
+  settings.train = options.prune_to.empty();
+  const ChangeGraph changes(preset.overrides);
+  settings.changes = &changes;
   Plant plant;
   const GrowthResult result = model.generate(preset.values, options.seed, settings, plant);
   if (!result.grown)

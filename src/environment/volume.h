@@ -16,6 +16,11 @@ class Volume {
   virtual ~Volume() = default;
   /// True where the point lies inside. Safe to call from several threads at once.
   virtual bool contains(Vec3 point_m) const = 0;
+  /// True only where the whole ball lies inside; false where that is not known.
+  virtual bool surely_contains_ball(Vec3 center_m, float radius_m) const {
+    (void)center_m, (void)radius_m;
+    return false;
+  }
 };
 
 /// An upright box. Throws InputError unless every size is positive and every number finite.

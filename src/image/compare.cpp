@@ -1,6 +1,7 @@
 #include "image/compare.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/error.h"
 #include "image/bits.h"
@@ -14,6 +15,19 @@ namespace {
 void check_same_size(const Mask& a, const Mask& b) {
   ESPALIER_CHECK_EQ(a.width_px(), b.width_px());
   ESPALIER_CHECK_EQ(a.height_px(), b.height_px());
+}
+
+/// Of the words of three masks of one size, the target's outline first.
+double gap_iou(Words outline, Words candidate, Words target) {
+  std::size_t in_candidate = 0, in_target = 0, in_both = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const std::uint64_t a = outline[i] & ~candidate[i], b = outline[i] & ~target[i];
+    in_candidate += static_cast<std::size_t>(std::popcount(a));
+    in_target += static_cast<std::size_t>(std::popcount(b));
+    in_both += static_cast<std::size_t>(std::popcount(a & b));
+  }
+  const std::size_t in_any = in_candidate + in_target - in_both;
+  return in_any == 0 ? 1 : static_cast<double>(in_both) / static_cast<double>(in_any);
 }
 
 /// Numbers of pixels from which the plain measures follow.
@@ -95,6 +109,10 @@ double outline_iou_term(const Counts&, const Mask& candidate, const PreparedTarg
   return 1 - iou(count_pixels(outline_of(candidate), target.outline()));
 }
 
+double gap_iou_term(const Counts&, const Mask& candidate, const PreparedTarget& target) {
+  return 1 - gap_iou(target.outline().words(), candidate.words(), target.mask().words());
+}
+
 struct TermRow {
   const char* name;
   TermFunction evaluate;
@@ -107,6 +125,7 @@ constexpr TermRow kTerms[] = {
     {"dice", dice_term},
     {"tolerant_iou", tolerant_iou_term},
     {"outline_iou", outline_iou_term},
+    {"gap_iou", gap_iou_term},
     {"truncated_distance", truncated_distance},
 };
 
@@ -140,6 +159,11 @@ double outline_iou(const Mask& a, const Mask& b) {
   return iou(outline_of(a), outline_of(b));
 }
 
+double gap_iou(const Mask& candidate, const Mask& target) {
+  check_same_size(candidate, target);
+  return gap_iou(outline_of(target).words(), candidate.words(), target.words());
+}
+
 double truncated_distance(const Mask& a, const Mask& b) {
   const Counts n = count_pixels(a, b);
   const int limit_px = distance_limit_px(larger_side_px(a));
@@ -154,8 +178,8 @@ Mask outline_of(const Mask& mask) {
 
 MaskMetrics compare_masks(const Mask& a, const Mask& b) {
   const Counts n = count_pixels(a, b);
-  return {pixel_accuracy(n),       iou(n), dice(n), tolerant_iou(a, b), outline_iou(a, b),
-          truncated_distance(a, b)};
+  return {pixel_accuracy(n),        iou(n),       dice(n), tolerant_iou(a, b), outline_iou(a, b),
+          truncated_distance(a, b), gap_iou(a, b)};
 }
 
 MaskMetrics compare_masks(const Mask& candidate, const PreparedTarget& target) {
@@ -165,7 +189,8 @@ MaskMetrics compare_masks(const Mask& candidate, const PreparedTarget& target) {
           dice(n),
           block_iou(count_blocks(candidate), target.block_counts()),
           iou(outline_of(candidate), target.outline()),
-          truncated_distance(n, candidate, target)};
+          truncated_distance(n, candidate, target),
+          gap_iou(target.outline().words(), candidate.words(), target.mask().words())};
 }
 
 PreparedTarget::PreparedTarget(Mask target)

@@ -1,7 +1,7 @@
 // Measures of how alike two silhouettes are, and weighted sums of them for a search to minimise.
 // All are plain functions of a candidate mask `a` and a target mask `b` of the same size (checked:
-// InternalError), give values in [0, 1], and are symmetric in a and b. They count bits word by word.
-// |m| is the number of set pixels of m. A measure of two empty masks is that of identical ones.
+// InternalError), give values in [0, 1], and are symmetric in a and b, but for gap_iou. They count bits word
+// by word. |m| is the number of set pixels of m. A measure of two empty masks is that of identical ones.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -30,6 +30,10 @@ double tolerant_iou(const Mask& a, const Mask& b);
 /// IoU of the outlines (outline_of) of both masks. Two empty masks: 1; one empty: 0.
 double outline_iou(const Mask& a, const Mask& b);
 
+/// IoU of the gaps: of the pixels inside of `target`'s outline that a mask leaves unset. The only measure
+/// that is not symmetric. Filling the outline scores 0 where the target has gaps. No gaps in both: 1.
+double gap_iou(const Mask& candidate, const Mask& target);
+
 /// Symmetric truncated distance with K = distance_limit_px(size):
 /// (mean over set p of a of min(d(p, b), K) + mean over set q of b of min(d(q, a), K)) / 2K.
 /// d is the octagonal distance: the number of dilations, a plus-shaped and a 3×3 one in turn, that
@@ -44,7 +48,8 @@ int distance_limit_px(int size_px);
 Mask outline_of(const Mask& mask);
 
 struct MaskMetrics {
-  double pixel_accuracy = 0, iou = 0, dice = 0, tolerant_iou = 0, outline_iou = 0, truncated_distance = 0;
+  double pixel_accuracy = 0, iou = 0, dice = 0, tolerant_iou = 0, outline_iou = 0, truncated_distance = 0,
+         gap_iou = 0;
 };
 
 MaskMetrics compare_masks(const Mask& a, const Mask& b);
@@ -83,7 +88,7 @@ struct MaskObjective {
 };
 
 /// What a term can be: pixel_difference, pixel_accuracy, iou, dice, tolerant_iou, outline_iou,
-/// truncated_distance. pixel_difference is 1 - pixel_accuracy, whose inverse is the fitness of the
+/// gap_iou, truncated_distance. pixel_difference is 1 - pixel_accuracy, whose inverse is the fitness of the
 /// dissertation (Weber–Penn fitting, §3.3.2); as a term it equals pixel_accuracy.
 std::vector<std::string> objective_names();
 

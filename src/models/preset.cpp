@@ -7,12 +7,14 @@
 #include "models/models.h"
 #include "models/preset_reader.h"
 #include "models/preset_source.h"
+#include "overrides/overrides_toml.h"
 
 namespace espalier {
 
 namespace {
 
-const std::vector<std::string> kPresetKeys = {"name", "description", "model", "extends"};
+const std::vector<std::string> kPresetKeys = {"name",   "description", "model",      "extends",
+                                              "branch", "shared",      kGrownIntoKey};
 
 /// The text under a key of the preset itself, if it is there.
 std::optional<std::string> read_text(const toml::table& document, const std::string& source,
@@ -68,13 +70,45 @@ Preset load_base(const toml::table& document, const PresetSource& source, Chain&
   return base;
 }
 
+/// Where the overrides of the i-th [[branch]] of a document stand, or the document alone for inherited ones.
+std::string place_of(const BranchPath& path, const toml::table& document, const PresetSource& source) {
+  const toml::array* branches = document["branch"].as_array();
+  if (branches)
+    for (const toml::node& branch : *branches)
+      if (branch.is_table() && (*branch.as_table())["path"].value_or(std::string()) == to_string(path))
+        return toml_location(source.label, branch);
+  return source.label;
+}
+
+/// Throws for paths that no plant of these values can have; those of too few children are dormant.
+void check_branches(const Preset& preset, const Model& model, const toml::table& document,
+                    const PresetSource& source) {
+  const BranchLimits limits = model.branch_limits(preset.values);
+  for (const OverrideNode& node : preset.overrides.nodes) {
+    const auto levels = std::count_if(node.path.begin(), node.path.end(),
+                                      [](std::uint32_t part) { return part < kFirstSplit; });
+    if (levels > limits.levels)
+      throw_input_error("{}: path: got '{}' of {} levels, expected at most {}",
+                        place_of(node.path, document, source), to_string(node.path), levels, limits.levels);
+    if (node.path.front() >= limits.trunks)
+      throw_input_error("{}: path: got '{}' on trunk {}, expected a trunk below {}",
+                        place_of(node.path, document, source), to_string(node.path), node.path.front(),
+                        limits.trunks);
+  }
+}
+
 Preset load_chain(const PresetSource& source, Chain& chain) {
   chain.push_back(source.identity);
   const toml::table document = parse_toml(source.text, source.label);
   Preset preset = load_base(document, source, chain);
   preset.name = read_text(document, source.label, "name").value_or(source.name);
   preset.description = read_text(document, source.label, "description").value_or(preset.description);
-  read_parameters(document, source.label, model_by_name(preset.model).table(), kPresetKeys, preset.values);
+  const Model& model = model_by_name(preset.model);
+  read_parameters(document, source.label, model.table(), kPresetKeys, preset.values);
+  read_overrides({document, source.label}, preset.overrides);
+  if (document.contains(kGrownIntoKey))
+    preset.grown_into = read_grown_into({document, source.label}, source.folder);
+  check_branches(preset, model, document, source);
   return preset;
 }
 

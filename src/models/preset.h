@@ -5,14 +5,18 @@
 #include <vector>
 
 #include "core/parameter_table.h"
+#include "models/grown_into.h"
+#include "overrides/overrides.h"
 
 namespace espalier {
 
 struct Preset {
-  std::string name;         ///< "quaking_aspen", or the file's stem
-  std::string description;  ///< one line, may be empty
-  std::string model;        ///< "weber_penn"
-  ParameterValues values;   ///< in the order of the model's table
+  std::string name;                        ///< "quaking_aspen", or the file's stem
+  std::string description;                 ///< one line, may be empty
+  std::string model;                       ///< "weber_penn"
+  ParameterValues values;                  ///< in the order of the model's table
+  Overrides overrides = {};                ///< of single branches
+  std::vector<GrownInto> grown_into = {};  ///< pictures whose outlines the tree stays inside of
 };
 
 /// Names of the bundled presets, sorted.

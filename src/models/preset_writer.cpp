@@ -5,6 +5,7 @@
 #include "models/models.h"
 #include "models/preset.h"
 #include "models/preset_reader.h"
+#include "overrides/overrides_toml.h"
 
 namespace espalier {
 
@@ -41,7 +42,7 @@ std::string preset_to_toml(const Preset& preset) {
     if (i == 0 || table.rows[i].name != table.rows[i - 1].name)
       text += fmt::format("{:<36}  # {}\n", assignment(table, table.rows[i].name, preset.values),
                           comment(table.rows[i]));
-  return text;
+  return text + overrides_to_toml(preset.overrides) + grown_into_to_toml(preset.grown_into);
 }
 
 }  // namespace espalier

@@ -5,11 +5,13 @@
 
 #include "core/parameter_table.h"
 #include "core/random.h"
+#include "plant/branch_path.h"
 #include "plant/plant.h"
 
 namespace espalier {
 
-class Volume;  // environment/volume.h
+class ChangeGraph;  // overrides/change_graph.h
+class Volume;       // environment/volume.h
 
 /// How large a plant may get. A candidate beyond it is refused before it is grown.
 struct GrowthBudget {
@@ -17,9 +19,19 @@ struct GrowthBudget {
   double max_leaves = 3'000'000;
 };
 
+/// One branch of a plant, with all it bears or alone.
+struct PlantPart {
+  BranchPath path;
+  bool alone = false;
+};
+
 struct GrowthSettings {
   GrowthBudget budget;
-  const Volume* prune_to = nullptr;  ///< replaces the parametric pruning envelope; not owned
+  const Volume* prune_to = nullptr;      ///< replaces the parametric pruning envelope; not owned
+  bool train = false;                    ///< bend stems along prune_to's border before they are cut
+  const ChangeGraph* changes = nullptr;  ///< overrides of single branches; not owned
+  const PlantPart* only_part =
+      nullptr;  ///< grow this branch, in its place, and leave out the rest; not owned
 };
 
 /// How large the plant of these values is expected to get, without growing it.
@@ -33,6 +45,12 @@ struct GrowthResult {
   double over_budget_factor = 0;  ///< > 1 where refused
 };
 
+/// Which paths branches of a plant can have at all.
+struct BranchLimits {
+  int levels = 100;
+  std::uint32_t trunks = 1'000'000;
+};
+
 class Model {
  public:
   virtual ~Model() = default;
@@ -43,6 +61,10 @@ class Model {
   virtual ParameterValues deepened(std::span<const double> values, int levels) const {
     (void)levels;
     return {values.begin(), values.end()};
+  }
+  virtual BranchLimits branch_limits(std::span<const double> values) const {
+    (void)values;
+    return {};
   }
   virtual GrowthEstimate estimate(std::span<const double> values) const = 0;
   /// Grows into `plant`, whose memory is reused. `values` follow table(); they must be valid.

@@ -19,6 +19,9 @@ struct Stems {
       parent;  ///< index of the parent stem, -1 for a trunk; a clone has its original's parent
   std::vector<std::uint8_t> level;      ///< 0 for trunks
   std::vector<std::uint64_t> path_key;  ///< the key of its random numbers: the same stem in another plant
+  std::vector<std::int32_t>
+      origin;  ///< index of the stem it sprang from: the parent, for a clone its original; -1: a trunk
+  std::vector<std::uint32_t> child_index;  ///< which child of its origin: a part of its path (branch_path.h)
 
   std::size_t size() const { return level.size(); }
 };

@@ -9,6 +9,22 @@
 
 namespace espalier {
 
+namespace {
+
+/// Heading along the curve; `right` as [CH §3.2.1]: (forward × right at the segment's end) × tangent, and
+/// along a helix the turn of the tangent.
+Turtle frame_at(const Segment& segment, float t) {
+  Turtle frame;
+  frame.position_m = segment_point(segment, t);
+  frame.forward = segment_tangent(segment, t);
+  const Vec3 right = segment.helical ? cross(segment_tangent(segment, t + 0.05f), frame.forward)
+                                     : cross(cross(segment.end.forward, segment.end.right), frame.forward);
+  frame.right = normalized(right, any_perpendicular(frame.forward));
+  return frame;
+}
+
+}  // namespace
+
 float child_stem_count(const GrowingStem& stem, const WeberPennParameters& p) {
   const int child_level = level_index(stem.level + 1);
   const float most = p.branches[child_level];
@@ -33,7 +49,9 @@ ChildPlacer::ChildPlacer(const GrowingStem& stem, Bears bears, const WeberPennPa
     : p_(parameters),
       bears_(bears),
       stem_(&stem),
-      count_(bears == Bears::leaves ? leaf_count(stem, parameters) : child_stem_count(stem, parameters)),
+      count_(changed(
+          stem.cursor.change(), Quantity::child_count,
+          bears == Bears::leaves ? leaf_count(stem, parameters) : child_stem_count(stem, parameters))),
       child_level_(level_index(stem.level + 1)),
       distribution_(parameters.branch_dist[child_level_]),
       rotation_deg_(360 * draw_unit(stem.key, Draw::child_rotation_start)) {}
@@ -153,33 +171,26 @@ bool ChildPlacer::next_in_fan(ChildSite& site) {
   return true;
 }
 
-/// False below the stem's base and where nothing has grown yet.
 bool ChildPlacer::site_at(const ChildSlot& slot, ChildSite& site) const {
-  const float z = segment_->z_start + slot.t * (segment_->z_end - segment_->z_start);
-  if (z < p_.base_size[level_index(stem_->level)] || !(slot.grown_fraction > 0)) return false;
+  if (!is_borne(slot, z_of(slot))) return false;
+  site = place(slot, *segment_, slot.t, nullptr);
+  return true;
+}
+
+ChildSite ChildPlacer::place(const ChildSlot& slot, const Segment& segment, float t,
+                             const BranchChange* change) const {
+  const float z = segment.z_start + t * (segment.z_end - segment.z_start);
+  ChildSite site;
   site.index = slot.index;
   site.grown_fraction = slot.grown_fraction;
   site.offset_m = z * stem_->length_m;
   site.parent_radius_m = stem_radius_m(*stem_, z, p_);
-  site.turtle = frame_at(slot.t);
-  site.turtle.roll_right(slot.roll_deg);
+  site.turtle = frame_at(segment, t);
+  site.turtle.roll_right(changed(change, Quantity::rotation, slot.roll_deg));
   site.outward = cross(site.turtle.forward, site.turtle.right);
-  site.turtle.pitch_down(down_angle_deg(site.offset_m, slot.index));
+  site.turtle.pitch_down(changed(change, Quantity::down_angle, down_angle_deg(site.offset_m, slot.index)));
   site.turtle.renormalize();
-  return true;
-}
-
-/// Heading along the curve; `right` as [CH §3.2.1]: (forward × right at the segment's end) × tangent, and
-/// along a helix the turn of the tangent.
-Turtle ChildPlacer::frame_at(float t) const {
-  Turtle frame;
-  frame.position_m = segment_point(*segment_, t);
-  frame.forward = segment_tangent(*segment_, t);
-  const Vec3 right = segment_->helical
-                         ? cross(segment_tangent(*segment_, t + 0.05f), frame.forward)
-                         : cross(cross(segment_->end.forward, segment_->end.right), frame.forward);
-  frame.right = normalized(right, any_perpendicular(frame.forward));
-  return frame;
+  return site;
 }
 
 /// rotate ≥ 0: further round than the one before; < 0: alternate sides, that far from the downward direction.

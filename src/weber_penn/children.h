@@ -31,6 +31,7 @@ struct ChildSite {
   float offset_m = 0;         ///< along the parent
   float parent_radius_m = 0;  ///< at the offset
   float grown_fraction = 1;   ///< under 1 for the last child of a relaxed count
+  ChangeCursor cursor;        ///< its overrides
 };
 
 /// Expected number of child stems on a stem, not rounded; negative: that many in a fan at its tip.
@@ -57,6 +58,25 @@ class ChildPlacer {
   /// The same without the turtle, except in fans; slots below the stem's base bear nothing.
   bool next_slot(ChildSlot& slot);
 
+  /// Where along the whole stem the slot lies.
+  float z_of(const ChildSlot& slot) const {
+    return segment_->z_start + slot.t * (segment_->z_end - segment_->z_start);
+  }
+
+  /// False below the stem's base and where nothing has grown yet.
+  bool is_borne(const ChildSlot& slot, float z) const {
+    return z >= p_.base_size[level_index(stem_->level)] && slot.grown_fraction > 0;
+  }
+
+  /// After the last segment, for slots that are still to be placed: `stem` as it was at its base.
+  void end(const GrowingStem& stem) { stem_ = &stem; }
+
+  /// Works out a slot at t of any segment of the stem. `change` (may be null) is what overrides do to it.
+  ChildSite place(const ChildSlot& slot, const Segment& segment, float t, const BranchChange* change) const;
+
+  /// Whether the children are a fan at the tip, which has no slots: next() alone yields it.
+  bool in_fan() const { return count_ < 0; }
+
   /// Takes whole children of the segment, as many as kMostInRun, until it returns false; not in fans or
   /// whorls. Their rolls are kept until the next run. next_slot() then yields what is left.
   bool next_run(ChildRun& run);
@@ -69,7 +89,6 @@ class ChildPlacer {
   float next_rotation_deg();
   float jitter_deg(int index) const;
   float down_angle_deg(float offset_m, int index) const;
-  Turtle frame_at(float t) const;
 
   const WeberPennParameters& p_;
   Bears bears_;

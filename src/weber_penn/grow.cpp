@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "weber_penn/changed_children.h"
 #include "weber_penn/child_stem.h"
 #include "weber_penn/children.h"
 #include "weber_penn/curve_knots.h"
@@ -34,6 +35,7 @@ struct GrowthMemory {
 /// Which children a stem bears, and whether vectors place them.
 struct Offspring {
   bool leaves = false, stems = false;
+  bool are_changed = false;  ///< some by overrides, or all but one are left out
   ChildBatch* batch = nullptr;
 };
 
@@ -60,6 +62,18 @@ class Growth {
   class StemGrowth;
 
   std::int32_t last_stem() const { return static_cast<std::int32_t>(plant_.stems.size()) - 1; }
+  /// Whether the stem itself is part of what is asked for, not only on the way to it.
+  bool is_shown(const GrowingStem& stem) const {
+    return !settings_.only_part ||
+           static_cast<std::size_t>(stem.path_length) >= settings_.only_part->path.size();
+  }
+  bool is_wanted(const GrowingStem& stem) const;
+  /// The one child to grow where the stem only leads to the part asked for.
+  std::optional<std::uint32_t> only_child(const GrowingStem& stem) const {
+    if (is_shown(stem)) return std::nullopt;
+    return settings_.only_part->path[static_cast<std::size_t>(stem.path_length)];
+  }
+
   Offspring offspring(const GrowingStem& stem);
   bool takes(const GrowingStem& stem);
   std::size_t batch_size(std::size_t index);
@@ -67,6 +81,7 @@ class Growth {
   void grow_stem(const GrowingStem& stem);
   void grow_stems(std::span<const GrowingStem> stems);
   std::size_t grow_next(std::size_t index);
+  bool change_trunk(GrowingStem& trunk) const;
   void grow_child(const GrowingStem& parent, std::int32_t parent_index, const ChildSite& site);
   float child_length_m(const GrowingStem& parent, const ChildSite& site) const;
   bool prune(GrowingStem& stem) const;
@@ -86,24 +101,44 @@ class Growth {
 class Growth::StemGrowth : public StemVisitor {
  public:
   StemGrowth(Growth& growth, const GrowingStem& stem)
-      : growth_(growth), index_(growth.last_stem()), offspring_(growth.offspring(stem)) {
+      : growth_(growth),
+        is_shown_(growth.is_shown(stem)),
+        index_(is_shown_ ? growth.last_stem() : -1),
+        offspring_(growth.offspring(stem)) {
     if (offspring_.leaves)
       children_.emplace(stem, ChildPlacer::Bears::leaves, growth.p_);
     else if (offspring_.stems)
       children_.emplace(stem, ChildPlacer::Bears::stems, growth.p_);
+    if (offspring_.are_changed) changed_.emplace(*children_, growth.only_child(stem));
     growth.twig_batch_.set_parent(index_);
   }
 
   bool segment(const GrowingStem& stem, const Segment& segment) override {
-    append_knots(stem, segment, growth_.p_, growth_.plant_.knots);
+    if (is_shown_) append_knots(stem, segment, growth_.p_, growth_.plant_.knots);
     if (children_) bear_children(stem, segment);
     return true;
   }
 
-  void split(const GrowingStem& clone) override { growth_.level_.push_back(clone); }
+  void split(const GrowingStem& clone) override {
+    if (!growth_.is_wanted(clone)) return;
+    growth_.level_.push_back(clone);
+    growth_.level_.back().origin = index_;
+  }
+
+  /// After the last segment.
+  void finish(const GrowingStem& stem) {
+    if (!changed_) return;
+    changed_->end(stem);
+    for (ChildSite site; changed_->next_waiting(site);) growth_.grow_child(stem, index_, site);
+  }
 
  private:
   void bear_children(const GrowingStem& stem, const Segment& segment) {
+    if (changed_) {
+      changed_->begin(stem, segment);
+      for (ChildSite site; changed_->next(site);) growth_.grow_child(stem, index_, site);
+      return;
+    }
     children_->begin(stem, segment);
     if (offspring_.batch) {
       offspring_.batch->add(stem, segment, *children_);
@@ -118,30 +153,41 @@ class Growth::StemGrowth : public StemVisitor {
   }
 
   Growth& growth_;
-  std::int32_t index_;
+  bool is_shown_;
+  std::int32_t index_;  ///< in the plant; -1 where the stem is not shown
   Offspring offspring_;
   std::optional<ChildPlacer> children_;
+  std::optional<ChangedChildren> changed_;
 };
 
 Offspring Growth::offspring(const GrowingStem& stem) {
-  if (stem.level + 1 < p_.level_count())
-    return {.stems = true, .batch = uses_vectors_ && TwigBatch::takes(stem, p_) ? &twig_batch_ : nullptr};
-  if (p_.leaf_blos_num == 0) return {};
-  return {.leaves = true, .batch = uses_vectors_ && LeafBatch::takes(stem, p_) ? &leaf_batch_ : nullptr};
+  if (stem.level + 1 >= p_.level_count()) {
+    if (p_.leaf_blos_num == 0 || !is_shown(stem)) return {};
+    return {.leaves = true, .batch = uses_vectors_ && LeafBatch::takes(stem, p_) ? &leaf_batch_ : nullptr};
+  }
+  if (settings_.only_part && settings_.only_part->alone && is_shown(stem)) return {};
+  const bool are_changed = stem.cursor.changes_below() || !is_shown(stem);
+  const bool are_trained = settings_.train && settings_.prune_to;
+  const bool in_batches = uses_vectors_ && !are_changed && !are_trained && TwigBatch::takes(stem, p_);
+  return {.stems = true, .are_changed = are_changed, .batch = in_batches ? &twig_batch_ : nullptr};
 }
 
 /// Enters the stem into the plant's arrays; its knots follow.
 void Growth::begin_stem(const GrowingStem& stem) {
+  if (!is_shown(stem)) return;
   plant_.stems.parent.push_back(stem.parent);
   plant_.stems.level.push_back(static_cast<std::uint8_t>(stem.level));
   plant_.stems.path_key.push_back(stem.key.value);
+  plant_.stems.origin.push_back(stem.origin);
+  plant_.stems.child_index.push_back(stem.child_index);
 }
 
 void Growth::grow_stem(const GrowingStem& stem) {
   begin_stem(stem);
   StemGrowth growth(*this, stem);
   walk_stem(stem, p_, growth);
-  plant_.stems.first_knot.push_back(static_cast<std::uint32_t>(plant_.knots.size()));
+  growth.finish(stem);
+  if (is_shown(stem)) plant_.stems.first_knot.push_back(static_cast<std::uint32_t>(plant_.knots.size()));
 }
 
 /// Stems that a StemBatch takes, on whose level vectors compute everything.
@@ -158,11 +204,14 @@ void Growth::grow_stems(std::span<const GrowingStem> stems) {
   }
 }
 
-/// Whether the stem grows in a batch, with all that is on it.
+/// Whether the stem grows in a batch, with all that is on it: not where an override changes it or what it
+/// bears.
 bool Growth::takes(const GrowingStem& stem) {
   const Offspring of = offspring(stem);
-  const bool is_scalar = (of.leaves || of.stems) && of.batch == nullptr;
-  return uses_vectors_ && !is_scalar && StemBatch::takes(stem.level, p_) && has_plain_knots(stem.level, p_);
+  const bool is_plain = !of.leaves && !of.stems;
+  return uses_vectors_ && (is_plain || of.batch != nullptr) && is_shown(stem) &&
+         !stem.cursor.changes_below() && stem.extra_curve_deg == 0 && StemBatch::takes(stem.level, p_) &&
+         has_plain_knots(stem.level, p_);
 }
 
 /// How many stems from `index` on grow in one batch.
@@ -195,16 +244,21 @@ float Growth::child_length_m(const GrowingStem& parent, const ChildSite& site) c
 void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, const ChildSite& site) {
   if (site.parent_radius_m < kThinnestParentM) return;
   const int level = parent.level + 1;
+  const BranchChange* change = site.cursor.change();
   GrowingStem child;
-  child.key = child_key(parent.key, site.index);
+  child.child_index = static_cast<std::uint32_t>(site.index);
+  child.key = reseeded(child_key(parent.key, child.child_index), change ? change->seed : 0);
   child.level = level;
-  child.parent = parent_index;
+  child.parent = child.origin = parent_index;
+  child.path_length = parent.path_length + 1;
+  child.cursor = site.cursor;
+  child.extra_curve_deg = extra_curve_deg(change, level, p_);
   child.tree = parent.tree;
   child.turtle = site.turtle;
   child.offset_m = site.offset_m;
   child.parent_length_m = parent.length_m;
   child.parent_child_max = parent.child_max;
-  child.length_m = site.grown_fraction * child_length_m(parent, site);
+  child.length_m = changed(change, Quantity::length, site.grown_fraction * child_length_m(parent, site));
   if (child.length_m < kShortestStemM) return;
   // [CH §3.2.1]: starts as close as is safe to the parent's surface; before pruning, which tests where it is.
   const auto radius_m = [&](float length_m) {
@@ -213,7 +267,7 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
   const float unpruned_radius_m = radius_m(child.length_m);
   child.turtle.position_m += site.outward * (site.parent_radius_m - unpruned_radius_m);
   if (!prune(child)) return;
-  child.radius_m = radius_m(child.length_m);
+  child.radius_m = changed(change, Quantity::radius, radius_m(child.length_m));
   child.child_max = drawn_child_max(child, p_);
   twig_batch_.flush();  // what waits comes before
   next_level_.push_back(child);
@@ -221,7 +275,10 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
 
 /// False where nothing is left of the stem.
 bool Growth::prune(GrowingStem& stem) const {
-  stem.length_m = pruned_length_m(stem, p_, settings_.prune_to);
+  if (settings_.train && settings_.prune_to)
+    train_stem(stem, p_, *settings_.prune_to);
+  else
+    stem.length_m = pruned_length_m(stem, p_, settings_.prune_to);
   return stem.length_m >= kShortestStemM;
 }
 
@@ -234,12 +291,37 @@ double Growth::over_budget_factor() const {
   return std::max(stems, leaves);
 }
 
+/// Whether the part asked for is on the stem, or the stem on the way to it.
+bool Growth::is_wanted(const GrowingStem& stem) const {
+  if (!settings_.only_part) return true;
+  const BranchPath& path = settings_.only_part->path;
+  const auto depth = static_cast<std::size_t>(stem.path_length);
+  return depth > path.size() ? !settings_.only_part->alone : path[depth - 1] == stem.child_index;
+}
+
+/// False where overrides remove the trunk.
+bool Growth::change_trunk(GrowingStem& trunk) const {
+  const BranchChange* change = trunk.cursor.change();
+  if (change == nullptr) return true;
+  trunk.key = reseeded(trunk.key, change->seed);
+  trunk.length_m = (*change)[Quantity::length].apply(trunk.length_m);
+  trunk.tree.base_length_m = trunk.length_m * p_.base_size[0];
+  trunk.turtle.roll_right((*change)[Quantity::rotation].apply(0));
+  trunk.turtle.pitch_down((*change)[Quantity::down_angle].apply(0));
+  trunk.extra_curve_deg = extra_curve_deg(change, 0, p_);
+  return !change->removed;
+}
+
 GrowthResult Growth::run(Seed seed) {
   plant_trunks(p_, root_key(seed), level_);
   plant_.tree_scale_m = level_.front().tree.scale_m;
+  const ChangeCursor above_trunks(settings_.changes);
   for (GrowingStem& trunk : level_) {
-    if (!prune(trunk)) trunk.length_m = 0;
-    trunk.radius_m = trunk.length_m * p_.ratio * p_.radius_mod[0];
+    trunk.child_index = static_cast<std::uint32_t>(&trunk - level_.data());
+    trunk.cursor = above_trunks.child(trunk.child_index);
+    if (!is_wanted(trunk) || !change_trunk(trunk) || !prune(trunk)) trunk.length_m = 0;
+    trunk.radius_m =
+        changed(trunk.cursor.change(), Quantity::radius, trunk.length_m * p_.ratio * p_.radius_mod[0]);
     trunk.child_max = drawn_child_max(trunk, p_);
   }
   std::erase_if(level_, [](const GrowingStem& trunk) { return trunk.length_m < kShortestStemM; });

@@ -20,6 +20,11 @@ class WeberPennModel : public Model {
     return deepened_values(values, levels);
   }
 
+  BranchLimits branch_limits(std::span<const double> values) const override {
+    const WeberPennParameters p = weber_penn_parameters(values);
+    return {p.level_count(), static_cast<std::uint32_t>(std::max(1.f, p.branches[0]))};
+  }
+
   GrowthEstimate estimate(std::span<const double> values) const override {
     return estimate_growth(weber_penn_parameters(values));
   }

@@ -16,6 +16,7 @@ class InsideTest : public StemVisitor {
   bool segment(const GrowingStem& stem, const Segment& segment) override {
     const bool exempt = stem.level == 0 && segment.z_end * stem.length_m <= stem.tree.base_length_m;
     if (!exempt && !contains(stem, segment.end_m)) inside_ = false;
+    if (!exempt && volume_ && !volume_->contains(segment_point(segment, 0.5f))) inside_ = false;
     return inside_;
   }
 
@@ -44,22 +45,61 @@ bool surely_fits(const GrowingStem& stem, const WeberPennParameters& p) {
          ball_inside_envelope(stem.turtle.position_m, kRounding * stem.length_m, stem.tree.scale_m, p);
 }
 
+bool surely_fits(const GrowingStem& stem, const WeberPennParameters& p, const Volume& volume) {
+  constexpr float kRounding = 1.001f;
+  return p.curve_v[level_index(stem.level)] >= 0 &&
+         volume.surely_contains_ball(stem.turtle.position_m, kRounding * stem.length_m);
+}
+
 bool fits(const GrowingStem& stem, const WeberPennParameters& p, const Volume* volume) {
-  if (volume == nullptr && surely_fits(stem, p)) return true;
+  if (volume == nullptr ? surely_fits(stem, p) : surely_fits(stem, p, *volume)) return true;
   InsideTest test(p, volume);
   walk_stem(stem, p, test);
   return test.inside();
 }
 
+constexpr float kShorter = 0.9f;         ///< the step of shortening
+constexpr float kShortestUnbent = 0.6f;  ///< of its length, where a stem is bent instead
+constexpr float kShortest = 0.15f;       ///< of its length, below which it is dropped
+
+/// Shortens the stem until it fits; false where that takes it below `shortest` times its length.
+bool shorten(GrowingStem& stem, float shortest, const WeberPennParameters& p, const Volume& volume) {
+  const float shortest_m = shortest * stem.length_m;
+  while (!fits(stem, p, &volume)) {
+    stem.length_m *= kShorter;
+    if (stem.length_m < shortest_m) return false;
+  }
+  return true;
+}
+
 }  // namespace
+
+void train_stem(GrowingStem& stem, const WeberPennParameters& p, const Volume& volume) {
+  GrowingStem trained = stem;
+  if (!shorten(trained, kShortestUnbent, p, volume)) {
+    constexpr float kBends_deg[] = {25, -25, 50, -50, 80, -80, 120, -120};
+    for (const float bend_deg : kBends_deg) {
+      trained = stem;
+      trained.extra_curve_deg += bend_deg;
+      if (shorten(trained, kShortestUnbent, p, volume)) break;
+      trained.length_m = 0;
+    }
+  }
+  if (trained.length_m == 0) {
+    trained = stem;
+    if (!shorten(trained, kShortest, p, volume)) trained.length_m = 0;
+  }
+  stem.length_m = trained.length_m;
+  stem.extra_curve_deg = trained.extra_curve_deg;
+}
 
 float pruned_length_m(const GrowingStem& stem, const WeberPennParameters& p, const Volume* volume) {
   const float ratio = volume && p.prune_ratio == 0 ? 1 : p.prune_ratio;
   if (ratio == 0) return stem.length_m;
   GrowingStem shorter = stem;
   while (!fits(shorter, p, volume)) {
-    shorter.length_m *= 0.9f;
-    if (shorter.length_m < 0.15f * stem.length_m) {
+    shorter.length_m *= kShorter;
+    if (shorter.length_m < kShortest * stem.length_m) {
       shorter.length_m = 0;
       break;
     }

@@ -9,4 +9,8 @@ namespace espalier {
 /// and prunes fully unless prune_ratio says how far.
 float pruned_length_m(const GrowingStem& stem, const WeberPennParameters& parameters, const Volume* volume);
 
+/// Makes the stem fit into the volume: shortened a little, else bent along the border, else shortened until
+/// it fits; its length is 0 where nothing is left.
+void train_stem(GrowingStem& stem, const WeberPennParameters& parameters, const Volume& volume);
+
 }  // namespace espalier

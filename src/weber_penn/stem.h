@@ -4,6 +4,8 @@
 #include <cstdint>
 
 #include "core/random.h"
+#include "overrides/change_graph.h"
+#include "plant/branch_path.h"
 #include "weber_penn/parameters.h"
 #include "weber_penn/turtle.h"
 
@@ -52,6 +54,11 @@ struct GrowingStem {
   RandomKey key;
   int level = 0;
   std::int32_t parent = -1;  ///< index in Plant::stems
+  std::int32_t origin = -1;  ///< likewise; for a clone: of the stem it splits off
+  std::uint32_t child_index = 0;
+  int path_length = 1;        ///< parts of its path
+  ChangeCursor cursor;        ///< its overrides
+  float extra_curve_deg = 0;  ///< over the whole stem, by an override
   Tree tree;
   Turtle turtle;        ///< at the start of the stem (for a clone: at the split)
   float length_m = 0;   ///< of the whole stem, also for a clone that starts midway
@@ -68,6 +75,11 @@ struct GrowingStem {
   float child_share = 1;    ///< of the children that an unsplit stem would bear per segment
   float split_correction_deg = 0;  ///< paid back at each later segment end
 };
+
+/// Other random numbers for a stem and all on it, where an override gives a seed.
+constexpr RandomKey reseeded(RandomKey key, std::uint64_t seed) {
+  return seed == 0 ? key : RandomKey{mix_bits(key.value ^ mix_bits(~seed))};
+}
 
 inline int segment_count(const WeberPennParameters& parameters, int level) {
   const int segments = static_cast<int>(parameters.curve_res[level_index(level)]);

@@ -44,7 +44,7 @@ class StemBatch {
  public:
   static constexpr int kMostStems = 8;
 
-  /// Whether stems of this level can be walked in batches.
+  /// Whether stems of this level can be walked in batches, unless overrides bend them.
   static bool takes(int level, const WeberPennParameters& parameters);
 
   /// Walks 1 to kMostStems stems of one level from their bases; the curves of the batch before are gone.

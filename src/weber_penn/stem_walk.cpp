@@ -27,7 +27,8 @@ void turn(GrowingStem& stem, int at, const WeberPennParameters& p) {
   const int segments = segment_count(p, stem.level);
   const float bend_deg = jitter_deg(stem, Draw::bend, at, p.bend_v[level_index(stem.level)], segments);
   if (bend_deg != 0) stem.turtle.turn_left(bend_deg);
-  stem.turtle.pitch_down(curve_angle_deg(stem, at, segments, p) - stem.split_correction_deg);
+  const float extra_deg = stem.extra_curve_deg / static_cast<float>(segments);
+  stem.turtle.pitch_down(curve_angle_deg(stem, at, segments, p) + extra_deg - stem.split_correction_deg);
 }
 
 /// Rotates the heading h by 10·|h × T| degrees about h × T; z pulls only at level 2 and above [CH §3.2.1].
@@ -38,8 +39,6 @@ void apply_tropism(GrowingStem& stem, const WeberPennParameters& p) {
   const float strength = length(axis);
   if (strength > 1e-9f) stem.turtle.rotate_about(axis * (1 / strength), 10 * strength);
 }
-
-constexpr unsigned kFirstCloneIndex = 1'000'000, kClonesPerSplit = 16;  ///< keys beyond those of children
 
 /// Of the error diffusion. Trunks start at 0 as in the published implementation, all else at random, which
 /// keeps the mean while stems may grow in any order.
@@ -122,11 +121,27 @@ void turn_into_fork(Turtle& turtle, const Fork& fork, int index, int count) {
 
 GrowingStem make_clone(const GrowingStem& stem, int at, int index, const WeberPennParameters& p) {
   GrowingStem clone = stem;
-  clone.key = child_key(stem.key, kFirstCloneIndex + kClonesPerSplit * static_cast<unsigned>(at) + index);
+  clone.child_index = kFirstSplit + kStemsPerSplit * static_cast<unsigned>(at) + static_cast<unsigned>(index);
+  clone.key = child_key(stem.key, clone.child_index);
+  clone.path_length = stem.path_length + 1;
+  clone.cursor = stem.cursor.child(clone.child_index);
   clone.first_segment = at;
   clone.child_share = stem.branch_factor * (1 - static_cast<float>(at) / segment_count(p, stem.level));
   clone.split_error = draw_unit(clone.key, Draw::split_error);
   return clone;
+}
+
+/// What overrides do to a stem that splits off; false where they remove it.
+bool change_clone(GrowingStem& clone, const WeberPennParameters& p) {
+  const BranchChange* change = clone.cursor.change();
+  if (change == nullptr) return true;
+  clone.key = reseeded(clone.key, change->seed);
+  clone.turtle.roll_right((*change)[Quantity::rotation].apply(0));
+  clone.turtle.pitch_down((*change)[Quantity::down_angle].apply(0));
+  clone.length_m = (*change)[Quantity::length].apply(clone.length_m);
+  clone.radius_m = (*change)[Quantity::radius].apply(clone.radius_m);
+  clone.extra_curve_deg += extra_curve_deg(change, clone.level, p);
+  return !change->removed && clone.length_m > 0;
 }
 
 /// Splits at segment end `at` into count + 1: `count` clones, and the stem itself, which is turned as well.
@@ -138,6 +153,7 @@ void split(GrowingStem& stem, int at, int count, bool at_base, const WeberPennPa
   for (int index = 1; index <= count; ++index) {
     GrowingStem clone = make_clone(stem, at, index, p);
     turn_into_fork(clone.turtle, fork, index, count);
+    if (!change_clone(clone, p)) continue;
     clone.turtle.renormalize();
     visitor.split(clone);
   }
@@ -160,6 +176,13 @@ Segment advance(GrowingStem& stem, Vec3 heading_at_start, int index, int segment
 }
 
 }  // namespace
+
+float extra_curve_deg(const BranchChange* change, int level, const WeberPennParameters& p) {
+  if (change == nullptr) return 0;
+  const int i = level_index(level);
+  const float generated_deg = p.curve[i] + p.curve_back[i];
+  return (*change)[Quantity::curvature].apply(generated_deg) - generated_deg;
+}
 
 Vec3 segment_point(const Segment& s, float t) {
   const float u = 1 - t;

@@ -78,6 +78,7 @@ void TwigBatch::note(const GrowingStem& stem, int first_row, int count) {
     parents_.key[row] = stem.key;
     parents_.tree[row] = stem.tree;
     parents_.index[row] = parent_index_;
+    parents_.path_length[row] = stem.path_length;
   }
 }
 
@@ -87,7 +88,9 @@ GrowingStem TwigBatch::made(std::size_t row) const {
   GrowingStem stem;
   stem.key = child_key(parents_.key[row], static_cast<std::uint64_t>(waiting_.index[row]));
   stem.level = parent_level_ + 1;
-  stem.parent = parents_.index[row];
+  stem.parent = stem.origin = parents_.index[row];
+  stem.child_index = static_cast<std::uint32_t>(waiting_.index[row]);
+  stem.path_length = parents_.path_length[row] + 1;
   stem.tree = parents_.tree[row];
   stem.turtle = {vec3(made_.position), vec3(made_.forward), vec3(made_.right)};
   stem.length_m = made_.length_m[row];

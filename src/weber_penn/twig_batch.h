@@ -15,7 +15,7 @@ struct TwigBatchParents {
   alignas(64) Column<float> length_m, child_max, radius_m;
   Column<RandomKey> key;
   Column<Tree> tree;
-  Column<std::int32_t> index;
+  Column<std::int32_t> index, path_length;
 };
 
 /// Child stems in place, by row of WaitingChildren: where they start, their frames and sizes.

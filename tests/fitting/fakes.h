@@ -61,6 +61,8 @@ class PoleModel : public Model {
     plant.stems.parent = {-1};
     plant.stems.level = {0};
     plant.stems.path_key = {1};
+    plant.stems.origin = {-1};
+    plant.stems.child_index = {0};
     plant.knots.point_m = {{0, 0, 0}, {0, 0, height}};
     plant.knots.handle_in_m = {{0, 0, 0}, {0, 0, height * 2 / 3}};
     plant.knots.handle_out_m = {{0, 0, height / 3}, {0, 0, height}};

@@ -31,6 +31,9 @@ FitRecord full_record() {
   record.seed = 18446744073709551615ull;
   record.start = "palm";
   record.search = {{"g_scale", "curve*"}, {{"curve_v[1]", -0.1}, {"levels", 3}}};
+  record.kind = "palm";
+  record.train_to_target = true;
+  record.budget.branch_rounds = 17;
   record.height_m = 12.34;
   record.versions = {{"espalier", "0.1.0"}};
   return record;
@@ -69,7 +72,7 @@ std::string checking_error(const std::function<void(FitRecord&)>& spoil) {
 }
 
 TEST(FitRecord, ReadsBackWhatItWrote) {
-  const std::string text = record_to_toml(full_record(), FitOutcome{77, "time"});
+  const std::string text = record_to_toml(full_record(), FitOutcome{77, 5, "time"});
   const auto [record, outcome] = through_file(text);
   EXPECT_EQ(record_to_toml(record, outcome), text);
   EXPECT_EQ(record.seed, full_record().seed);
@@ -77,6 +80,7 @@ TEST(FitRecord, ReadsBackWhatItWrote) {
   EXPECT_EQ(record.views[1].view.projection, Projection::perspective);
   ASSERT_TRUE(outcome);
   EXPECT_EQ(outcome->evaluations, 77);
+  EXPECT_EQ(outcome->branch_rounds, 5);
 }
 
 RC_GTEST_PROP(FitRecord, NumbersKeepTheirBits, (double value)) {
@@ -92,6 +96,25 @@ TEST(FitRecord, NamesFileAndKeyOfWhatIsMissingOrWrong) {
   EXPECT_THAT(reading_error(replaced(text, "seconds = 0.1", "seconds = \"long\"")), HasSubstr("run.toml:"));
   EXPECT_THAT(reading_error(replaced(text, "format = 1", "format = 9")), HasSubstr("got 9"));
   EXPECT_THAT(reading_error("nonsense"), HasSubstr("run.toml:1"));
+}
+
+TEST(FitRecord, OfEarlierVersionsHasNoBranchRounds) {
+  const std::string text = record_to_toml(full_record(), {});
+  const std::string older =
+      replaced(replaced(text, "branch_rounds = 17", ""), "train_to_target = true\n", "");
+  const FitRecord record = through_file(older).record;
+  EXPECT_EQ(record.budget.branch_rounds, 0);
+  EXPECT_FALSE(record.train_to_target);
+}
+
+TEST(FitRecord, RefusesRoundsWithoutEndAndUnknownKinds) {
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.kind = "bush"; }), HasSubstr("got 'bush', expected auto"));
+  EXPECT_THAT(checking_error([](FitRecord& r) {
+                r.budget = {100, 0, 0, kWhileTimeLasts};
+              }),
+              HasSubstr("without an end"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.budget.branch_rounds = -2; }),
+              HasSubstr("--branch-rounds"));
 }
 
 TEST(FitRecord, AcceptsAWholeRecord) {

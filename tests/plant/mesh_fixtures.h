@@ -25,6 +25,8 @@ inline void add_stem(Plant& plant, const std::vector<Vec3>& points, const std::v
   plant.stems.parent.push_back(-1);
   plant.stems.level.push_back(0);
   plant.stems.path_key.push_back(plant.stems.size());
+  plant.stems.origin.push_back(-1);
+  plant.stems.child_index.push_back(0);
 }
 
 /// A straight stem with evenly spaced handles.

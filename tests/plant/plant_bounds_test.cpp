@@ -18,6 +18,8 @@ void add_stem(Plant& plant, Vec3 p0, Vec3 p1, Vec3 p2, Vec3 p3, float radius_m) 
   plant.stems.parent.push_back(-1);
   plant.stems.level.push_back(0);
   plant.stems.path_key.push_back(1);
+  plant.stems.origin.push_back(-1);
+  plant.stems.child_index.push_back(0);
 }
 
 TEST(PlantBounds, AnEmptyPlantHasAZeroBoxAtTheOrigin) {

@@ -27,6 +27,8 @@ inline void add_stem(Plant& plant, std::span<const Vec3> points_m, std::span<con
   plant.stems.parent.push_back(level == 0 ? -1 : 0);
   plant.stems.level.push_back(static_cast<std::uint8_t>(level));
   plant.stems.path_key.push_back(plant.stems.size());
+  plant.stems.origin.push_back(-1);
+  plant.stems.child_index.push_back(0);
 }
 
 inline void add_cylinder(Plant& plant, Vec3 from_m, Vec3 to_m, float radius_m) {

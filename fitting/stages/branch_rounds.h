@@ -1,0 +1,42 @@
+// Stages (d) and (e) of a fit, round by round: branches of several orders are refined in turn, low orders
+// most often, on several copies of the tree at once (lanes), each with its own draws; the best is the result.
+// A round is a pure function of the state before it, so a run that is stopped after any of them goes on with
+// the same bits, for any number of threads.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fitting/fit_task.h"
+#include "fitting/stages/solution.h"
+
+namespace espalier {
+
+/// The best tree after a round, for the trace.
+struct RoundRow {
+  long steps = 0;
+  double seconds = 0, score = 1;
+  MaskMetrics metrics;
+};
+
+struct BranchRounds {
+  std::vector<Solution> lanes;
+  long rounds = 0;
+  long steps = 0;                 ///< branches grown, drawn and scored, over all lanes
+  long search_evaluations = 0;    ///< of the search before them
+  std::vector<RoundRow> history;  ///< the first row is the state before the first round
+
+  const Solution& best() const;
+};
+
+/// Lanes that all begin with `start`.
+BranchRounds begin_branch_rounds(const FitTask& task, const Solution& start, long search_evaluations);
+
+/// Makes one round on all lanes.
+void refine_round(const FitTask& task, Seed seed, int threads, BranchRounds& state);
+
+/// The state as text, and back. Throws InputError naming `source` where the text is no such state.
+std::string branch_rounds_to_json(const BranchRounds& state, const std::string& model);
+BranchRounds branch_rounds_from_json(const std::string& text, const std::string& source);
+
+}  // namespace espalier

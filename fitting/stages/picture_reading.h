@@ -1,0 +1,28 @@
+// Stage (a): what a mask says of its tree before anything is grown. All measures are relative to the tree's
+// height, so that they hold at any resolution.
+#pragma once
+#include <string>
+
+#include "image/mask.h"
+
+namespace espalier {
+
+enum class TreeKind { leafy, leafless, palm };
+
+struct PictureReading {
+  TreeKind kind = TreeKind::leafy;
+  double trunk_width = 0;      ///< at the foot
+  double crown_base = 0;       ///< height at which the outline becomes wider than a trunk
+  double crown_width = 0;      ///< of the whole tree
+  double cover = 0;            ///< set share of the filled outline: 1 - porosity
+  int trunks = 1;              ///< separate stems at the foot
+  bool touches_frame = false;  ///< at the sides or the top: the picture cuts the tree off
+};
+
+/// Throws InputError for an empty mask.
+PictureReading read_picture(const Mask& mask);
+
+/// "leafy", "leafless", "palm".
+std::string kind_name(TreeKind kind);
+
+}  // namespace espalier

@@ -1,0 +1,22 @@
+// The volume that pictures of a tree leave to it: what every camera sees inside of the tree's closed and
+// filled outline. One picture says nothing of depth: there the tree is as deep as half its outline is wide at
+// that height. Several give the visual hull [Laurentini 1994, The visual hull concept].
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "environment/volume.h"
+#include "image/mask.h"
+#include "render/camera.h"
+
+namespace espalier {
+
+struct PictureOutline {
+  Camera camera;
+  Mask outline;  ///< of the camera's size
+};
+
+/// Throws InputError where an outline is empty.
+std::unique_ptr<Volume> make_picture_envelope(std::vector<PictureOutline> outlines);
+
+}  // namespace espalier

@@ -1,0 +1,55 @@
+// Overrides made ready for growing: inheritance and sharing are worked out once, and a stem finds what
+// changes it by a step from its parent. A model carries a ChangeCursor in each growing stem, moves it with
+// child(), and applies change() where it computes the quantity. Immutable: threads may share it.
+#pragma once
+#include <utility>
+#include <vector>
+
+#include "overrides/overrides.h"
+
+namespace espalier {
+
+class ChangeGraph;
+
+/// The place of a stem in the graph. Valid as long as the graph.
+class ChangeCursor {
+ public:
+  ChangeCursor() = default;
+  explicit ChangeCursor(const ChangeGraph* graph);  ///< above the trunks; null: nothing is overridden
+  ChangeCursor child(std::uint32_t index) const;
+  /// What changes the stem here; null: nothing.
+  const BranchChange* change() const;
+  /// Whether branches below this stem are changed in any way.
+  bool changes_below() const { return node_ >= 0 || inherits_ >= 0; }
+
+ private:
+  const ChangeGraph* graph_ = nullptr;
+  std::int32_t node_ = -1;      ///< of this very path; -1: none
+  std::int32_t inherits_ = -1;  ///< the node whose public overrides hold here; -1: none
+};
+
+class ChangeGraph {
+ public:
+  /// Throws InputError for a shared set that is unknown, or that leads back to itself.
+  explicit ChangeGraph(const Overrides& overrides);
+
+ private:
+  friend class ChangeCursor;
+
+  struct Node {
+    BranchChange change;     ///< of the branch itself
+    BranchChange handed_on;  ///< of those below without a node of their own
+    bool hands_on = false;   ///< whether handed_on changes anything
+    std::vector<std::pair<std::uint32_t, std::int32_t>> children;  ///< by index
+  };
+
+  std::int32_t add_path(const BranchPath& path);
+  void combine(std::int32_t node, std::int32_t inherits, const std::vector<std::vector<Override>>& own);
+
+  std::vector<Node> nodes_;  ///< the first stands above the trunks
+};
+
+/// The overrides of `set`, those it shares first. Throws InputError as the graph does.
+std::vector<Override> resolved_overrides(const OverrideSet& set, const Overrides& overrides);
+
+}  // namespace espalier

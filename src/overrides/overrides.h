@@ -1,0 +1,57 @@
+// Overrides by path: a sparse decomposition graph over a plant. A node names a branch by its path and
+// overrides what the model would give it: absolute values, or factors and offsets of what it inherits. What a
+// node overrides holds for everything below it too, unless it is private; nodes may share one set of
+// overrides by name. A node whose branch does not grow is dormant: it is kept, and acts again when the branch
+// returns, which paths that count from the base make likely [Boudon et al. 2003, §2.1, §4, Fig. 10].
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "overrides/branch_change.h"
+#include "plant/branch_path.h"
+
+namespace espalier {
+
+enum class Relation : std::uint8_t { value, factor, offset };
+
+struct Override {
+  Quantity quantity = Quantity::length;
+  Relation relation = Relation::value;
+  double number = 0;
+  bool is_private = false;  ///< not inherited by the branches below
+};
+
+/// What one node says, or several that share it.
+struct OverrideSet {
+  std::string shares;  ///< name of a shared set that comes first; empty: none
+  std::vector<Override> overrides;
+};
+
+struct OverrideNode {
+  BranchPath path;
+  OverrideSet set;
+};
+
+struct Overrides {
+  std::vector<OverrideNode> nodes;            ///< by path, each once
+  std::map<std::string, OverrideSet> shared;  ///< by name
+
+  bool empty() const { return nodes.empty(); }
+  /// The node of this path, made where there is none.
+  OverrideNode& at(const BranchPath& path);
+  const OverrideNode* find(const BranchPath& path) const;
+};
+
+/// "length", "down_angle", ….
+const char* quantity_name(Quantity quantity);
+std::vector<std::string> quantity_names();
+
+/// Throws InputError, opening with `where`, where a number is no valid one for its quantity, or a quantity
+/// cannot be overridden that way: a factor of a seed, a trunk's position.
+void check_override(const Override& entry, const BranchPath& path, const std::string& where);
+
+/// Sets what `set` says of this quantity, replacing what it said before.
+void set_override(OverrideSet& set, const Override& entry);
+
+}  // namespace espalier

@@ -1,0 +1,123 @@
+#include "overrides/overrides_toml.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/error.h"
+#include "core/toml_file.h"
+#include "overrides/change_graph.h"
+
+namespace espalier {
+
+namespace {
+
+constexpr const char* kRelations[] = {"value", "factor", "offset"};  ///< in the order of Relation
+
+std::vector<std::string> known_keys(bool in_branch) {
+  std::vector<std::string> keys = quantity_names();
+  keys.emplace_back("shares");
+  if (in_branch) keys.emplace_back("path");
+  return keys;
+}
+
+/// { factor = 1.2, private = true }
+void read_relation(const TomlSection& entry, Override& result) {
+  entry.expect_only({"value", "factor", "offset", "private"});
+  int found = 0;
+  for (std::size_t i = 0; i < std::size(kRelations); ++i) {
+    if (!entry.has(kRelations[i])) continue;
+    result.relation = static_cast<Relation>(i);
+    result.number = entry.number(kRelations[i]);
+    ++found;
+  }
+  if (entry.has("private")) result.is_private = entry.flag("private");
+  if (found != 1)
+    throw_input_error("{}: got {} of value, factor and offset, expected one",
+                      toml_location(entry.source, entry.table), found);
+}
+
+Override read_override(const TomlSection& node, const std::string& key, Quantity quantity) {
+  Override result{.quantity = quantity};
+  if (node.node(key).is_table())
+    read_relation(node.section(key), result);
+  else if (node.node(key).is_boolean())
+    result.number = node.flag(key) ? 1 : 0;
+  else
+    result.number = node.number(key);
+  return result;
+}
+
+void read_set(const TomlSection& node, const BranchPath& path, OverrideSet& set) {
+  if (node.has("shares")) set.shares = node.text("shares");
+  const std::vector<std::string> names = quantity_names();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!node.has(names[i])) continue;
+    const Override entry = read_override(node, names[i], static_cast<Quantity>(i));
+    check_override(entry, path, toml_location(node.source, node.node(names[i])));
+    set_override(set, entry);
+  }
+}
+
+void read_shared(const TomlSection& sets, Overrides& overrides) {
+  for (const auto& [name, node] : sets.table) {
+    const TomlSection set = sets.section(name.str());
+    set.expect_only(known_keys(false));
+    read_set(set, {}, overrides.shared[std::string(name.str())]);
+  }
+}
+
+/// Throws where the node's set is not there, or leads back to itself.
+void check_sharing(const TomlSection& node, const OverrideSet& set, const Overrides& overrides) {
+  try {
+    resolved_overrides(set, overrides);
+  } catch (const InputError& error) {
+    throw_input_error("{}: {}", toml_location(node.source, node.node("shares")), error.what());
+  }
+}
+
+std::string override_to_toml(const Override& entry) {
+  const std::string name = quantity_name(entry.quantity);
+  if (entry.quantity == Quantity::removed) return fmt::format("{} = {}\n", name, entry.number != 0);
+  if (entry.relation == Relation::value && !entry.is_private)
+    return fmt::format("{} = {}\n", name, entry.number);
+  return fmt::format("{} = {{ {} = {}{} }}\n", name, kRelations[static_cast<std::size_t>(entry.relation)],
+                     entry.number, entry.is_private ? ", private = true" : "");
+}
+
+std::string set_to_toml(const OverrideSet& set) {
+  std::string text;
+  if (!set.shares.empty()) text += fmt::format("shares = {}\n", quote_toml(set.shares));
+  for (const Override& entry : set.overrides) text += override_to_toml(entry);
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> override_keys() { return {"branch", "shared"}; }
+
+void read_overrides(const TomlSection& preset, Overrides& overrides) {
+  if (preset.has("shared")) read_shared(preset.section("shared"), overrides);
+  if (!preset.has("branch")) return;
+  for (const TomlSection& node : preset.sections("branch")) {
+    node.expect_only(known_keys(true));
+    if (!node.has("path"))
+      throw_input_error("{}: got a branch without a path, expected path = \"0/3\"",
+                        toml_location(node.source, node.table));
+    const BranchPath path =
+        parse_branch_path(node.text("path"), toml_location(node.source, node.node("path")));
+    OverrideSet& set = overrides.at(path).set;
+    read_set(node, path, set);
+    if (node.has("shares")) check_sharing(node, set, overrides);
+  }
+}
+
+std::string overrides_to_toml(const Overrides& overrides) {
+  std::string text;
+  for (const auto& [name, set] : overrides.shared)
+    text += fmt::format("\n[shared.{}]\n{}", quote_toml(name), set_to_toml(set));
+  for (const OverrideNode& node : overrides.nodes)
+    text += fmt::format("\n[[branch]]\npath = \"{}\"\n{}", to_string(node.path), set_to_toml(node.set));
+  return text;
+}
+
+}  // namespace espalier

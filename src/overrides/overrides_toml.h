@@ -1,0 +1,26 @@
+// Overrides in a preset's TOML:
+//   [[branch]]
+//   path = "0/3"                                     # child 3 of trunk 0
+//   length = { factor = 1.2 }                        # inherited by the branches on it
+//   down_angle = { offset = -10, private = true }    # not inherited
+//   radius = 0.1                                     # a value that replaces the model's
+//   shares = "low"                                   # what [shared.low] says comes first
+#pragma once
+#include <string>
+
+#include "core/toml_section.h"
+#include "overrides/overrides.h"
+
+namespace espalier {
+
+/// The keys of a preset that hold overrides.
+std::vector<std::string> override_keys();
+
+/// Reads them into `overrides`: a node that is there already is changed quantity by quantity. Throws
+/// InputError with file, line, key, got and expected.
+void read_overrides(const TomlSection& preset, Overrides& overrides);
+
+/// The text read_overrides reads back to the same bits; empty where nothing is overridden.
+std::string overrides_to_toml(const Overrides& overrides);
+
+}  // namespace espalier

@@ -1,0 +1,73 @@
+#include "plant/branch_path.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "core/error.h"
+
+namespace espalier {
+
+namespace {
+
+constexpr std::string_view kSplit = "split";
+
+std::string part_to_string(std::uint32_t part) {
+  if (part < kFirstSplit) return fmt::format("{}", part);
+  const std::uint32_t split = part - kFirstSplit;
+  return fmt::format("{}{}.{}", kSplit, split / kStemsPerSplit, split % kStemsPerSplit);
+}
+
+std::optional<std::uint32_t> parse_number(std::string_view text, std::uint32_t most) {
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || number > most) return std::nullopt;
+  return number;
+}
+
+std::optional<std::uint32_t> parse_part(std::string_view text) {
+  if (!text.starts_with(kSplit)) return parse_number(text, kFirstSplit - 1);
+  const std::string_view place = text.substr(kSplit.size());
+  const std::size_t dot = place.find('.');
+  if (dot == std::string_view::npos) return std::nullopt;
+  const auto at = parse_number(place.substr(0, dot), 1000);
+  const auto number = parse_number(place.substr(dot + 1), kStemsPerSplit - 1);
+  if (!at || !number) return std::nullopt;
+  return kFirstSplit + kStemsPerSplit * *at + *number;
+}
+
+}  // namespace
+
+std::string to_string(const BranchPath& path) {
+  std::string text;
+  for (const std::uint32_t part : path) {
+    if (!text.empty()) text += '/';
+    text += part_to_string(part);
+  }
+  return text;
+}
+
+BranchPath parse_branch_path(std::string_view text, const std::string& where) {
+  BranchPath path;
+  for (std::size_t first = 0; first <= text.size();) {
+    const std::size_t end = std::min(text.find('/', first), text.size());
+    const auto part = parse_part(text.substr(first, end - first));
+    if (!part)
+      throw_input_error("{}: got '{}', expected a path of branches like '0/12/3' or '0/split4.1/7'", where,
+                        text);
+    path.push_back(*part);
+    first = end + 1;
+  }
+  return path;
+}
+
+BranchPath path_of(const Plant& plant, std::size_t stem) {
+  BranchPath path;
+  for (auto at = static_cast<std::int32_t>(stem); at >= 0;
+       at = plant.stems.origin[static_cast<std::size_t>(at)])
+    path.push_back(plant.stems.child_index[static_cast<std::size_t>(at)]);
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+}  // namespace espalier

@@ -1,0 +1,69 @@
+// What is read off a picture: the kinds of the bundled targets, and measures that do not depend on the size.
+#include "fitting/stages/picture_reading.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/error.h"
+#include "image/read_target.h"
+
+namespace espalier {
+namespace {
+
+PictureReading reading_of(const std::string& name, int size_px = 128) {
+  const std::filesystem::path file = std::filesystem::path(ESPALIER_SOURCE_DIR) / "targets" / (name + ".png");
+  return read_picture(read_target(file, {.size_px = size_px}).mask);
+}
+
+struct KnownKind {
+  const char* name;
+  TreeKind kind;
+};
+
+class PictureKind : public testing::TestWithParam<KnownKind> {};
+
+TEST_P(PictureKind, IsWhatAPersonSees) { EXPECT_EQ(reading_of(GetParam().name).kind, GetParam().kind); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Targets, PictureKind,
+    testing::Values(
+        KnownKind{"oc_palm", TreeKind::palm}, KnownKind{"tr_palmtree2", TreeKind::palm},
+        KnownKind{"reference_palm", TreeKind::palm}, KnownKind{"oc_rpg11", TreeKind::leafless},
+        KnownKind{"tr_blandbirch", TreeKind::leafless}, KnownKind{"tr_crookedtree4", TreeKind::leafless},
+        KnownKind{"tr_snowytree", TreeKind::leafless}, KnownKind{"snowy_tree", TreeKind::leafless},
+        KnownKind{"fir", TreeKind::leafy}, KnownKind{"tr_birch", TreeKind::leafy},
+        KnownKind{"oc_cypress", TreeKind::leafy}, KnownKind{"oc_orange", TreeKind::leafy},
+        KnownKind{"reference_apple", TreeKind::leafy}, KnownKind{"reference_quaking_aspen", TreeKind::leafy},
+        KnownKind{"reference_weeping_willow", TreeKind::leafy}, KnownKind{"oc_rpg01", TreeKind::leafy}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(PictureReading, MeasuresDoNotDependOnTheSizeOfTheMask) {
+  for (const char* name : {"oc_cypress", "tr_birch", "oc_palm"}) {
+    const PictureReading small = reading_of(name, 128), large = reading_of(name, 512);
+    EXPECT_NEAR(small.trunk_width, large.trunk_width, 0.03) << name;
+    EXPECT_NEAR(small.crown_base, large.crown_base, 0.06) << name;
+    EXPECT_NEAR(small.crown_width, large.crown_width, 0.02) << name;
+    EXPECT_NEAR(small.cover, large.cover, 0.05) << name;
+  }
+}
+
+TEST(PictureReading, APoleHasNoCrown) {
+  Mask mask(64, 64);
+  for (int y = 4; y < 60; ++y) mask.set(30, y), mask.set(31, y);
+  const PictureReading reading = read_picture(mask);
+  EXPECT_NEAR(reading.trunk_width, 2.0 / 56, 1e-9);
+  EXPECT_EQ(reading.crown_base, 1);
+  EXPECT_FALSE(reading.touches_frame);
+}
+
+TEST(PictureReading, ATreeThatIsCutOffTouchesTheFrame) {
+  Mask mask(64, 64);
+  for (int y = 0; y < 60; ++y) mask.set(30, y);
+  EXPECT_TRUE(read_picture(mask).touches_frame);
+}
+
+TEST(PictureReading, AnEmptyMaskIsRefused) { EXPECT_THROW(read_picture(Mask(32, 32)), InputError); }
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,127 @@
+// Fits that end with a refinement branch by branch: repeatable, resumable, and what they leave grows again.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "fitting/fit.h"
+#include "models/models.h"
+#include "models/preset.h"
+#include "overrides/change_graph.h"
+#include "support/run_espalier.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+FitRecord staged_record(long rounds, const std::string& picture = "tr_birch") {
+  FitRecord record;
+  record.views = {{fs::path(ESPALIER_SOURCE_DIR) / "targets" / (picture + ".png"), {}}};
+  record.target.size_px = 32;
+  record.budget = {60, 0, 0, rounds};
+  record.growth = {150, 600};
+  record.start = "quaking_aspen";
+  record.kind = "auto";
+  return record;
+}
+
+fs::path new_run(const std::string& name) { return fresh_folder(name) / "run"; }
+
+nlohmann::json summary_of(const fs::path& run) {
+  return nlohmann::json::parse(read_text_file(run / "summary.json"));
+}
+
+/// The mask of the preset in a run's directory, grown as any command grows it.
+Mask regrown(const fs::path& run) {
+  const Preset preset = load_preset((run / "best.toml").string());
+  const std::unique_ptr<Volume> envelope = envelope_of(preset.grown_into);
+  const ChangeGraph changes(preset.overrides);
+  const GrowthSettings settings{.prune_to = envelope.get(), .train = true, .changes = &changes};
+  Plant plant;
+  EXPECT_TRUE(model_by_name(preset.model).generate(preset.values, 1, settings, plant).grown);
+  const FitRecord record = read_record(run / "run.toml").record;
+  const TargetPicture target = read_target(record.views[0].picture, record.target);
+  Mask mask;
+  make_scanline_renderer()->draw(
+      plant, make_target_view(target.mask, target.tree_height_px, {}, kNominalHeightM).camera, mask);
+  return mask;
+}
+
+TEST(StagedFit, TheRefinementIsNotWorseThanTheSearch) {
+  const FitResult searched = fit(staged_record(0), new_run("search_only"));
+  const FitResult refined = fit(staged_record(2), new_run("search_and_branches"));
+  EXPECT_GT(refined.fitness, searched.fitness + 0.01);
+  EXPECT_EQ(refined.values, searched.values);
+  EXPECT_FALSE(refined.overrides.empty());
+  EXPECT_GT(refined.branch_steps, 1000);
+  EXPECT_EQ(refined.stopped_by, "rounds");
+}
+
+TEST(StagedFit, ThePresetItLeavesGrowsTheSamePicture) {
+  for (const bool train : {false, true}) {
+    const fs::path run = new_run(train ? "regrown_trained" : "regrown");
+    FitRecord record = staged_record(2);
+    record.train_to_target = train;
+    fit(record, run);
+    EXPECT_EQ(differing_px(regrown(run), read_mask(run / "best.png").mask), 0u) << "trained: " << train;
+  }
+}
+
+TEST(StagedFit, ResumedItIsTheUnbrokenRun) {
+  const fs::path unbroken = new_run("staged_unbroken"), broken = new_run("staged_broken");
+  fit(staged_record(3), unbroken);
+  fit(staged_record(1), broken);
+  FitOptions options;
+  options.resume = true;
+  fit(staged_record(3), broken, options);
+  EXPECT_EQ(read_text_file(broken / "best.toml"), read_text_file(unbroken / "best.toml"));
+  const auto whole = nlohmann::json::parse(read_text_file(unbroken / "branches.json")),
+             resumed = nlohmann::json::parse(read_text_file(broken / "branches.json"));
+  EXPECT_EQ(whole["lanes"], resumed["lanes"]);
+  EXPECT_EQ(whole["history"].size(), resumed["history"].size());
+}
+
+TEST(StagedFit, ThreadsDoNotChangeIt) {
+  const fs::path one = new_run("staged_one"), two = new_run("staged_two");
+  FitOptions options;
+  options.threads = 1;
+  fit(staged_record(2), one, options);
+  options.threads = 2;
+  fit(staged_record(2), two, options);
+  EXPECT_EQ(read_text_file(one / "best.toml"), read_text_file(two / "best.toml"));
+}
+
+TEST(StagedFit, ATrainedTreeSaysSoAndReportsTheTreeWithoutTraining) {
+  const fs::path run = new_run("trained");
+  FitRecord record = staged_record(1);
+  record.train_to_target = true;
+  fit(record, run);
+  const auto summary = summary_of(run);
+  EXPECT_EQ(summary["trained_to_target"], true);
+  EXPECT_TRUE(summary["without_training"].contains("iou"));
+  EXPECT_TRUE(fs::exists(run / "outline.png"));
+}
+
+TEST(StagedFit, AWinterTreeIsFittedWithoutLeaves) {
+  const fs::path run = new_run("winter");
+  const FitResult result = fit(staged_record(0, "tr_crookedtree4"), run);
+  EXPECT_EQ(summary_of(run)["kind"], "leafless");
+  EXPECT_EQ(result.values[model_by_name("weber_penn").table().index_of("leaf_blos_num")], 0);
+}
+
+TEST(StagedFit, WhatTheUserFreesIsLeftToHim) {
+  FitRecord record = staged_record(0, "tr_crookedtree4");
+  record.search.free = {"leaf_blos_num", "g_scale"};
+  EXPECT_NO_THROW(fit(record, new_run("winter_freed")));
+}
+
+TEST(StagedFit, SeveralSeedsAreNotRefined) {
+  FitRecord record = staged_record(2);
+  record.fit_seeds = 2;
+  EXPECT_EQ(fit(record, new_run("two_seeds")).branch_steps, 0);
+}
+
+}  // namespace
+}  // namespace espalier
