@@ -121,6 +121,9 @@ class Compiler {
   /// A number counts as true, so what follows it is never looked at.
   Value either(const Value& left, const Value& right) {
     if (left.type == Type::number) return left;
+    if (left.type == Type::guarded && right.type == Type::guarded)
+      return {Type::guarded, emit(Op::select, left.guard, left.operand, right.operand),
+              emit(Op::either, left.guard, right.guard)};
     if (left.type == Type::guarded)
       return {Type::number, emit(Op::select, left.guard, left.operand, number(right))};
     return {Type::condition, emit(Op::either, left.operand, condition(right))};
@@ -269,7 +272,10 @@ class Compiler {
 
   Value built_in(std::string_view name) {
     const std::vector<Value> values = arguments();
-    if (name == "random" && values.empty()) return {Type::number, emit(Op::random, literal(random_sites_++))};
+    if (name == "random" && values.empty()) {
+      program_.draws = true;
+      return {Type::number, emit(Op::random, literal(random_sites_++))};
+    }
     if (const auto one = kUnary.find(name); one != kUnary.end() && values.size() == 1)
       return {Type::number, emit(one->second, number(values[0]))};
     const auto folded = kFolded.find(name);

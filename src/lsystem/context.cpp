@@ -3,12 +3,13 @@
 namespace espalier::lsystem {
 
 void StringIndex::build(const ModuleString& string, const SymbolTable& alphabet, SymbolId open,
-                        SymbolId close, std::span<const std::uint8_t> skipped) {
+                        SymbolId close, std::span<const std::uint8_t> skipped, bool follow_branches) {
   symbols_ = string.symbols.data();
   size_ = string.size();
   open_ = open;
   close_ = close;
   skipped_ = skipped;
+  follow_branches_ = follow_branches;
   value_offset_.clear();
   partner_.clear();
   opened_.clear();
@@ -96,13 +97,19 @@ bool StringIndex::match_module(std::size_t at, std::span<const PatternModule> pa
     if (symbols_[at] == open_) {
       at = partner_[at];
     } else if (!skipped_[symbols_[at]]) {
-      if (symbols_[at] != pattern[0].symbol) return false;
+      if (symbols_[at] != pattern[0].symbol) break;
       matched[0] = static_cast<std::uint32_t>(at);
-      return match_from(at + 1, pattern.subspan(1), matched + 1);
+      if (match_from(at + 1, pattern.subspan(1), matched + 1)) return true;
+      break;
     }
   }
-  // The axis has ended: its last branches continue it.
-  for (std::size_t end = at, i = start; i < end; ++i) {
+  return follow_branches_ && follow(start, at, pattern, matched);
+}
+
+/// The pattern goes on in one of the branches between two places of an axis.
+bool StringIndex::follow(std::size_t begin, std::size_t end, std::span<const PatternModule> pattern,
+                         std::uint32_t* matched) const {
+  for (std::size_t i = begin; i < end; ++i) {
     if (symbols_[i] != open_) continue;
     if (match_module(i + 1, pattern, matched)) return true;
     i = partner_[i];

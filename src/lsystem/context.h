@@ -1,7 +1,8 @@
 // Contexts in bracketed strings. The left context of a module is the path to the root; the right context is
-// a tree, written with brackets; branches between are skipped [Herbaceous §2.3: BC < S > G[HI]M matches S
-// in ABC[DE][SG[HI][JK]LMNO]]. Where an axis has ended and only branches are left at its tip, they continue
-// it: without this the signal of [Topiary, L-system 4] would never leave the branch that was cut.
+// a tree, written with brackets; branches between are skipped [Herbaceous §2.3, ABOP p. 32: BC < S > G[HI]M
+// matches S in ABC[DE][SG[HI[JK]L]MNO]]. A file may ask for branches to be followed too: where the axis does
+// not match, the branches before that place are tried. Without it no signal would leave the branch whose
+// pruning sent it [Topiary, L-systems 4 and 6].
 #pragma once
 #include <cstdint>
 #include <span>
@@ -17,7 +18,7 @@ class StringIndex {
  public:
   /// `skipped` tells by symbol what contexts look past; brackets are never skipped.
   void build(const ModuleString& string, const SymbolTable& alphabet, SymbolId open, SymbolId close,
-             std::span<const std::uint8_t> skipped);
+             std::span<const std::uint8_t> skipped, bool follow_branches);
 
   /// Whether the path before module `i` ends with `pattern`; writes the place of each matched module.
   bool match_left(std::size_t i, std::span<const PatternModule> pattern, std::uint32_t* matched) const;
@@ -33,11 +34,14 @@ class StringIndex {
   bool match_from(std::size_t at, std::span<const PatternModule> pattern, std::uint32_t* matched) const;
   bool match_branch(std::size_t at, std::span<const PatternModule> pattern, std::uint32_t* matched) const;
   bool match_end(std::size_t at, std::span<const PatternModule> pattern, std::uint32_t* matched) const;
+  bool follow(std::size_t begin, std::size_t end, std::span<const PatternModule> pattern,
+              std::uint32_t* matched) const;
   bool match_module(std::size_t at, std::span<const PatternModule> pattern, std::uint32_t* matched) const;
 
   const SymbolId* symbols_ = nullptr;
   std::size_t size_ = 0;
   SymbolId open_ = 0, close_ = 0;
+  bool follow_branches_ = false;
   std::span<const std::uint8_t> skipped_;
   Buffer<std::uint32_t> value_offset_, partner_;
   std::vector<std::uint32_t> opened_;

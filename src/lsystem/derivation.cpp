@@ -26,6 +26,7 @@ std::vector<Production> axiom_production(const Grammar& grammar, SymbolId start)
 Derivation::Derivation(const Grammar& grammar, const Limits& limits)
     : workshop_(grammar, limits), limits_(limits) {
   const auto& names = grammar.names.globals;
+  workshop_.functions.set_max_modules(limits.modules);
   workshop_.globals.assign(names.size(), 0);
   for (const std::string& name : names) workshop_.lua.set_global(name, 0);
   for (const LuaCode& code : grammar.lua) workshop_.lua.run(code.text, code.label);
@@ -49,6 +50,12 @@ Derivation::Derivation(const Grammar& grammar, const Limits& limits)
   interpretations_.emplace(grammar.interpretations, workshop_, limits);
   axiom_ = axiom_production(grammar, workshop_.alphabet.intern("axiom", 0));
   axiom_rewriter_.emplace(axiom_, workshop_, limits);
+}
+
+void Derivation::set_limits(const Limits& limits) {
+  limits_ = limits;
+  workshop_.functions.set_max_modules(limits.modules);
+  for (auto* rewriter : {&productions_, &interpretations_, &axiom_rewriter_}) (*rewriter)->set_limits(limits);
 }
 
 double Derivation::evaluate(BlockExpression& expression) {

@@ -18,6 +18,7 @@ class Derivation {
   /// expected. `grammar` must outlive the derivation.
   explicit Derivation(const Grammar& grammar, const Limits& limits = {});
 
+  void set_limits(const Limits& limits);
   /// Back to the axiom. `parameters` follow grammar.parameters.
   void start(std::span<const double> parameters, Seed seed);
   void start(Seed seed) { start(workshop_.grammar.parameters.defaults(), seed); }

@@ -86,6 +86,7 @@ struct Grammar {
   std::vector<Production> productions, interpretations;
   std::vector<std::string> ignored, considered;  ///< names of symbols, for contexts
   bool has_considered = false;                   ///< then only those count
+  bool follow_branches = false;                  ///< right contexts look into branches too
 };
 
 /// Reads a file and what it includes. Throws InputError with file, line, column, got and expected.

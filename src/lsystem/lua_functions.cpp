@@ -99,6 +99,8 @@ void LuaFunctions::produce(lua_State* state) {
 void LuaFunctions::append_modules(std::string_view text, std::size_t arity) {
   while (!text.empty()) {
     const std::size_t length = symbol_length(text, grammar_.declared_symbols);
+    if (out_->size() >= max_modules_)
+      throw_input_error("produce: the string has more than {} modules, expected fewer", max_modules_);
     if (length == 0) throw_input_error("produce: got '{}', expected names of modules", text);
     const std::string_view name = text.substr(0, length);
     text.remove_prefix(length);

@@ -31,6 +31,9 @@ class LuaFunctions {
   bool run_body(LuaState::Function function, std::span<const Column> columns, std::size_t module,
                 RandomKey key, ModuleString& out);
 
+  /// Bodies may not produce more than this for a block.
+  void set_max_modules(std::size_t modules) { max_modules_ = modules; }
+
   /// What random() draws from until the next evaluation.
   void set_key(RandomKey key);
 
@@ -53,6 +56,7 @@ class LuaFunctions {
   ModuleString* out_ = nullptr;
   bool produced_ = false;
   int depth_ = 0;
+  std::size_t max_modules_ = Limits{}.modules;
 };
 
 }  // namespace espalier::lsystem

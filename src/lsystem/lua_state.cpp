@@ -40,8 +40,8 @@ void count_instructions(lua_State* state, lua_Debug*) {
   auto* usage = static_cast<Usage*>(data);
   usage->instructions += kInstructionsPerCheck;
   if (usage->instructions > usage->limits.lua_instructions)
-    luaL_error(state, "Lua ran for more than %f instructions, expected it to end sooner",
-               usage->limits.lua_instructions);
+    luaL_error(state, "Lua ran for more than %d instructions, expected it to end sooner",
+               static_cast<int>(usage->limits.lua_instructions));
 }
 
 void open_library(lua_State* state, lua_CFunction open, const char* name) {

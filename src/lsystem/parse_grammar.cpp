@@ -59,6 +59,7 @@ class Parser {
         {"productions:", &Parser::open_productions},
         {"interpretation:", &Parser::open_interpretation},
         {"lua:", &Parser::parse_lua},
+        {"branches:", &Parser::parse_branches},
         {"const ", &Parser::parse_constants},
         {"param ", &Parser::parse_parameter},
         {"let ", &Parser::parse_let},
@@ -93,6 +94,12 @@ class Parser {
   void parse_considered(Cursor& cursor) {
     parse_names(cursor, grammar_.considered);
     grammar_.has_considered = true;
+  }
+
+  void parse_branches(Cursor& cursor) {
+    grammar_.follow_branches = cursor.take("follow");
+    if (!grammar_.follow_branches && !cursor.take("skip")) cursor.fail("'skip' or 'follow'");
+    if (!cursor.at_end()) cursor.fail("the end of the line");
   }
 
   void open_productions(Cursor& cursor) { open_section(cursor, &grammar_.productions); }
@@ -186,15 +193,15 @@ class Parser {
     row.unit = "1";
     while (!cursor.at_end() && cursor.rest()[0] != '"') {
       const Position position = cursor.position();
-      const std::string word = cursor.expect_word("integer, logarithmic, a unit (m, deg or 1) or \"help\"");
+      const std::string word = cursor.expect_word("integer, logarithmic, deg or \"help\"");
       if (word == "integer")
         row.scale = Scale::integer;
       else if (word == "logarithmic")
         row.scale = Scale::logarithmic;
-      else if (word == "m" || word == "deg")
+      else if (word == "deg")
         row.unit = word;
       else
-        throw_at(position, "got '{}', expected integer, logarithmic, m or deg", word);
+        throw_at(position, "got '{}', expected integer, logarithmic or deg", word);
     }
     if (row.scale == Scale::logarithmic && row.lower <= 0)
       throw_at(cursor.position(), "got lower bound {}, expected one above 0 for a logarithmic parameter",

@@ -65,6 +65,7 @@ struct Program {
   std::vector<double> literals;
   Operand result;
   std::uint16_t temporaries = 0;
+  bool draws = false;         ///< calls random()
   bool is_condition = false;  ///< the result is 1 for true and 0 for false
 };
 

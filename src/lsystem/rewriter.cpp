@@ -48,7 +48,7 @@ void Rewriter::rewrite(const ModuleString& string, RandomKey key, const std::vec
   if (needs_index_) {
     const SymbolId open = workshop_.alphabet.intern("[", 0), close = workshop_.alphabet.intern("]", 0);
     prepare_skipped();
-    index_.build(string, workshop_.alphabet, open, close, skipped_);
+    index_.build(string, workshop_.alphabet, open, close, skipped_, workshop_.grammar.follow_branches);
   }
   result.clear();
   value_offset_ = 0;
@@ -60,8 +60,9 @@ void Rewriter::rewrite(const ModuleString& string, RandomKey key, const std::vec
       if (group.candidates.size() > 0) choose(group, rewriting);
     emit(string, begin, end, result);
     if (result.size() > limits_.modules)
-      throw_input_error("{}: the string has more than {} modules, expected fewer (a limit that can be set)",
-                        workshop_.grammar.name, limits_.modules);
+      throw TooManyModules(
+          fmt::format("{}: the string has more than {} modules, expected fewer (--max-modules)",
+                      workshop_.grammar.name, limits_.modules));
   }
   result.symbols.fit();
   result.values.fit();

@@ -13,6 +13,7 @@ class Rewriter {
  public:
   Rewriter(const std::vector<Production>& productions, Workshop& workshop, const Limits& limits);
 
+  void set_limits(const Limits& limits) { limits_ = limits; }
   bool is_empty() const { return rules_.empty(); }
   /// Rewrites `string` into `result`. `table_is_on` tells by table which productions take part.
   /// Throws InputError where several productions apply equally, a value is no finite number, or the result

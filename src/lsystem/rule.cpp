@@ -35,6 +35,8 @@ Rule::Rule(const Production& production, Workshop& workshop) : production_(&prod
   }
   if (production.lua_body) body_ = workshop.functions.compile_body(*production.lua_body, parameters_);
   column_data_.resize(parameters_.size());
+  needs_keys_ = body_ || (condition_ && condition_->draws()) || (probability_ && probability_->draws()) ||
+                std::any_of(arguments_.begin(), arguments_.end(), [](const auto& a) { return a.draws(); });
 }
 
 bool Rule::match_contexts(std::size_t module, const Rewriting& rewriting) {
@@ -95,6 +97,7 @@ void Rule::match(const Candidates& candidates, const Rewriting& rewriting, Works
 
 void Rule::make_keys(const Candidates& candidates, const Rewriting& rewriting) {
   keys_.clear();
+  if (!needs_keys_) return;
   for (const std::uint16_t hit : hits_) keys_.push_back(rewriting.module_key(candidates.module[hit]));
 }
 
@@ -112,13 +115,13 @@ void Rule::compress(std::span<const std::uint8_t> keep) {
     if (!keep[slot]) continue;
     if (kept != slot) {
       hits_[kept] = hits_[slot];
-      keys_[kept] = keys_[slot];
+      if (needs_keys_) keys_[kept] = keys_[slot];
       for (auto& column : column_data_) column[kept] = column[slot];
     }
     ++kept;
   }
   hits_.resize(kept);
-  keys_.resize(kept);
+  if (needs_keys_) keys_.resize(kept);
 }
 
 void Rule::keep_hits(std::span<const std::uint8_t> keep) {
@@ -152,13 +155,13 @@ Column Rule::compute(BlockExpression& expression, const char* what, const Candid
   };
   Column column;
   try {
-    column = expression.compute(columns_, keys_.data(), hits_.size(), workshop);
+    column = expression.compute(columns_, needs_keys_ ? keys_.data() : nullptr, hits_.size(), workshop);
   } catch (const InputError& all) {
     // Which module it was: one by one.
     for (std::size_t slot = 0; slot < hits_.size(); ++slot) try {
         std::vector<Column> one;
         for (const Column& c : columns_) one.push_back({c.data + slot * c.stride, 0});
-        expression.compute(one, keys_.data() + slot, 1, workshop);
+        expression.compute(one, needs_keys_ ? keys_.data() + slot : nullptr, 1, workshop);
       } catch (const InputError& error) {
         fail(candidates, rewriting, slot, workshop, text(error.what()));
       }

@@ -37,6 +37,8 @@ class BlockExpression {
                  Workshop& workshop);
 
   const Expression& source() const { return *source_; }
+  /// Whether it may call random().
+  bool draws() const { return !program_ || program_->draws; }
   /// Which value of the last computed column is no finite number, if any.
   static std::optional<std::size_t> first_not_finite(const Column& column, std::size_t count);
 
@@ -118,6 +120,7 @@ class Rule {
   std::vector<int> argument_of_value_;  ///< index into arguments_, -1 for what the turtle will fill in
   std::vector<SymbolId> successor_;
   std::optional<LuaState::Function> body_;
+  bool needs_keys_ = false;  ///< of random(), by module
 
   // Of the current block
   std::vector<std::uint16_t> hits_;

@@ -87,6 +87,9 @@ std::vector<std::string> bundled_presets() {
 }
 
 Preset load_preset(const std::string& name_or_path) {
+  if (name_or_path.ends_with(".lsys"))  // an L-system with its defaults
+    return {std::filesystem::path(name_or_path).stem().string(), "", name_or_path,
+            model_by_name(name_or_path).table().defaults()};
   Chain chain;
   return load_chain(find_preset(name_or_path, {}), chain);
 }
