@@ -79,14 +79,14 @@ void Derivation::evaluate_settings() {
   settings_ = {};
   for (SettingValue& entry : setting_values_) {
     const SettingInfo& info = *find_setting(entry.setting->name);
-    std::array<double, 3> values{};
+    SettingValues values{};
     for (std::size_t i = 0; i < entry.values.size(); ++i) {
       values[i] = evaluate(entry.values[i]);
       if (!(values[i] >= info.lower && values[i] <= info.upper))
         throw_at(entry.setting->values[i].position, "setting '{}': got {}, expected {} to {}", info.name,
                  values[i], info.lower, info.upper);
     }
-    assign_setting(settings_, info.name, values);
+    info.assign(settings_, values);
   }
 }
 

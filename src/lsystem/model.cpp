@@ -37,7 +37,7 @@ class LsystemModel : public Model {
   explicit LsystemModel(const std::string& name) : grammar_(load_grammar(name)), table_(grammar_.parameters) {
     Derivation derivation(grammar_);
     derivation.start(1);
-    if (!table_.find("unit")) table_.rows.push_back(unit_row(derivation.settings().unit_m));
+    table_.rows.push_back(unit_row(derivation.settings().unit_m));
     table_.model = name;
   }
 

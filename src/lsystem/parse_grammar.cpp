@@ -1,12 +1,16 @@
 // The statements of an L-system file, one function a keyword; see docs/lsystem.md for the notation.
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 #include <set>
 
 #include "core/files.h"
 #include "lsystem/grammar.h"
 #include "lsystem/parse_modules.h"
+#include "lsystem/parse_production.h"
 #include "lsystem/settings.h"
 #include "lsystem/statements.h"
 
@@ -19,6 +23,25 @@ namespace fs = std::filesystem;
 constexpr std::array kLuaWords{"and",      "break",  "do",   "else", "elseif", "end",  "false", "for",
                                "function", "goto",   "if",   "in",   "local",  "nil",  "not",   "or",
                                "repeat",   "return", "then", "true", "until",  "while"};
+
+/// Names that Lua code gives a value: words before a '=' or after "function". They are Lua's from then on.
+void collect_assigned(std::string_view code, std::set<std::string, std::less<>>& names) {
+  const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  std::string_view before;
+  for (std::size_t i = 0; i < code.size();) {
+    const std::size_t begin = i;
+    while (i < code.size() && is_word(code[i])) ++i;
+    if (i == begin) {
+      ++i;
+      continue;
+    }
+    const std::string_view word = code.substr(begin, i - begin);
+    const std::size_t next = std::min(code.find_first_not_of(" \t", i), code.size());
+    const bool assigned = code.substr(next).starts_with('=') && !code.substr(next).starts_with("==");
+    if (assigned || before == "function") names.emplace(word);
+    before = word;
+  }
+}
 
 class Parser {
  public:
@@ -70,7 +93,7 @@ class Parser {
         return (this->*handler)(cursor);
       }
     if (cursor.rest().starts_with("include ")) return parse_include(cursor, may_include);
-    if (!parse_setting(cursor)) parse_production(cursor);
+    if (!parse_setting(cursor)) read_production(cursor);
   }
 
   void skip(Cursor&) {}
@@ -121,24 +144,18 @@ class Parser {
     table_ = static_cast<int>(grammar_.tables.size()) - 1;
   }
 
-  /// Line breaks before the code make Lua's line numbers those of the file.
-  std::string padded(const Cursor& cursor, std::size_t begin, std::string_view code) const {
-    const std::string& text = cursor.position().source->text;
-    const auto lines = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
-    return std::string(static_cast<std::size_t>(lines), '\n') + std::string(code);
-  }
-
   void parse_lua(Cursor& cursor) {
-    grammar_.lua.push_back({padded(cursor, cursor.at(), cursor.rest()), cursor.position().source->label});
+    collect_assigned(cursor.rest(), grammar_.names.from_lua);
+    grammar_.lua.push_back({lua_code(cursor, cursor.at(), cursor.rest()), cursor.position().source->label});
   }
 
   std::string new_name(Cursor& cursor) {
     cursor.skip_space();
     const Position position = cursor.position();
     const std::string name = cursor.expect_word("a name");
-    if (std::find(kLuaWords.begin(), kLuaWords.end(), name) != kLuaWords.end() || name == "step")
-      throw_at(position, "got '{}', expected a name that is not taken by Lua or by the derivation step",
-               name);
+    if (std::find(kLuaWords.begin(), kLuaWords.end(), name) != kLuaWords.end() || name == "step" ||
+        name == "unit")
+      throw_at(position, "got '{}', expected a name that is not taken by Lua, the step or the unit", name);
     if (!taken_.insert(name).second)
       throw_at(position, "got '{}' a second time, expected another name", name);
     return name;
@@ -234,7 +251,7 @@ class Parser {
     for (const std::string& name : function.parameters) parameters += (parameters.empty() ? "" : ", ") + name;
     const std::string code =
         fmt::format("function {}({}) return {} end", function.name, parameters, function.body);
-    grammar_.lua.push_back({padded(cursor, body.position.offset, code), cursor.position().source->label});
+    grammar_.lua.push_back({lua_code(cursor, body.position.offset, code), cursor.position().source->label});
   }
 
   void parse_include(Cursor& cursor, bool may_include) {
@@ -273,99 +290,12 @@ class Parser {
     return true;
   }
 
-  /// An id is followed by a colon at once; the colon before a condition has a space before it.
-  static std::string parse_id(Cursor& cursor) {
-    const std::size_t begin = cursor.at();
-    const std::string word(cursor.take_word());
-    if (!word.empty() && cursor.rest().starts_with(':')) {
-      cursor.go_to(cursor.at() + 1);
-      return word;
-    }
-    cursor.go_to(begin);
-    return "";
-  }
-
-  void parse_production(Cursor& cursor) {
+  void read_production(Cursor& cursor) {
     if (!section_ || cursor.rest().find("-->") == std::string_view::npos)
       cursor.fail(section_ ? "a production with '-->', a setting or a keyword (see docs/lsystem.md)"
                            : "a keyword, a setting, or 'productions:' before the first production");
-    Production production;
-    production.position = cursor.position();
-    production.name = parse_id(cursor);
-    if (production.name.empty()) production.name = fmt::format("production {}", section_->size() + 1);
-    production.table = table_;
-    parse_predecessor(cursor, production);
-    if (cursor.take(":")) production.condition = parse_condition(cursor);
-    cursor.expect("-->");
-    parse_result(cursor, production);
-    if (!cursor.at_end()) cursor.fail("the end of the production");
-    section_->push_back(std::move(production));
-  }
-
-  void parse_predecessor(Cursor& cursor, Production& production) {
-    std::vector<PatternModule> modules = parse_pattern(cursor, grammar_);
-    if (cursor.take("<")) {
-      if (modules.empty()) cursor.fail("a left context before '<'");
-      check_is_path(modules, production.position);
-      production.left = std::move(modules);
-      modules = parse_pattern(cursor, grammar_);
-    }
-    if (modules.size() != 1)
-      throw_at(production.position, "{}: got {} modules, expected one predecessor", production.name,
-               modules.size());
-    production.predecessor = modules.front();
-    const std::string& name = grammar_.alphabet[production.predecessor.symbol].name;
-    if (name == "[" || name == "]")
-      throw_at(production.position, "{}: got '{}', expected a predecessor that is no bracket",
-               production.name, name);
-    if (cursor.take(">")) {
-      production.right = parse_pattern(cursor, grammar_);
-      if (production.right.empty()) cursor.fail("a right context after '>'");
-    }
-    check_parameters(production);
-  }
-
-  void check_is_path(const std::vector<PatternModule>& modules, const Position& position) const {
-    for (const PatternModule& module : modules)
-      if (grammar_.alphabet[module.symbol].name == "[" || grammar_.alphabet[module.symbol].name == "]")
-        throw_at(position, "got a bracket in the left context, expected a path without branches");
-  }
-
-  static void check_parameters(const Production& production) {
-    std::set<std::string> seen;
-    const auto check = [&](const PatternModule& module) {
-      for (const std::string& name : module.parameters)
-        if (!seen.insert(name).second)
-          throw_at(production.position, "{}: got parameter '{}' twice, expected different names",
-                   production.name, name);
-    };
-    for (const PatternModule& module : production.left) check(module);
-    check(production.predecessor);
-    for (const PatternModule& module : production.right) check(module);
-  }
-
-  static Expression parse_condition(Cursor& cursor) {
-    cursor.skip_space();
-    const std::size_t begin = cursor.at(), arrow = begin + cursor.rest().find("-->");
-    std::string text(cursor.between(begin, arrow));
-    text.erase(text.find_last_not_of(" \t\n") + 1);
-    if (text.empty()) cursor.fail("a condition");
-    cursor.go_to(arrow);
-    return {text, cursor.position(begin)};
-  }
-
-  void parse_result(Cursor& cursor, Production& production) {
-    cursor.skip_space();
-    const std::size_t begin = cursor.at();
-    const std::string_view rest = cursor.rest();
-    if (rest.starts_with("lua") &&
-        (rest.size() == 3 || rest.substr(3).find_first_not_of(" \t\r") == rest.substr(3).find('\n'))) {
-      production.lua_body = Expression{padded(cursor, begin, rest.substr(3)), cursor.position()};
-      cursor.go_to(begin + rest.size());
-      return;
-    }
-    production.successor = parse_successor(cursor, grammar_);
-    if (cursor.take(":")) production.probability = parse_expression(cursor, "");
+    section_->push_back(parse_production(cursor, grammar_, section_->size() + 1));
+    section_->back().table = table_;
   }
 
   Grammar& grammar_;

@@ -1,22 +1,10 @@
 // The settings of an L-system file: "name: value", with numbers that may be expressions of its constants.
-// One row a setting: how many values it takes, their defaults and bounds.
+// One row a setting: how many values it takes, their bounds, the field it sets.
 #pragma once
 #include <array>
-#include <string>
 #include <string_view>
 
 namespace espalier::lsystem {
-
-struct SettingInfo {
-  std::string_view name;
-  std::size_t value_count = 1;
-  std::array<double, 3> defaults{};
-  double lower = 0, upper = 0;
-  std::string_view help;
-};
-
-/// nullptr where there is no such setting.
-const SettingInfo* find_setting(std::string_view name);
 
 /// The settings of a derivation, evaluated.
 struct Settings {
@@ -33,7 +21,16 @@ struct Settings {
   double joint = 1;                        ///< 1: joints of segments are smooth, 0: they are corners
 };
 
-/// Sets one of them. `values` are within the bounds of its row.
-void assign_setting(Settings& settings, std::string_view name, const std::array<double, 3>& values);
+using SettingValues = std::array<double, 3>;
+
+struct SettingInfo {
+  std::string_view name;
+  std::size_t value_count = 1;
+  double lower = 0, upper = 0;  ///< of each value
+  void (*assign)(Settings&, const SettingValues&) = nullptr;
+};
+
+/// nullptr where there is no such setting.
+const SettingInfo* find_setting(std::string_view name);
 
 }  // namespace espalier::lsystem

@@ -15,6 +15,11 @@ std::string describe(const Position& position) {
   return fmt::format("{}:{}:{}", position.source->label, line, column);
 }
 
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 std::string found_at(std::string_view text, std::size_t offset) {
   if (offset >= text.size()) return "the end of the file";
   const auto byte = static_cast<unsigned char>(text[offset]);

@@ -26,9 +26,12 @@ struct Position {
 /// "file:line:column", both from 1; "L-system" for a position in no file.
 std::string describe(const Position& position);
 
+/// The text with blanks for its line breaks: messages quote what files say.
+std::string one_line(std::string text);
+
 template <typename... Args>
 [[noreturn]] void throw_at(const Position& position, fmt::format_string<Args...> format, Args&&... args) {
-  throw InputError(describe(position) + ": " + fmt::format(format, std::forward<Args>(args)...));
+  throw InputError(one_line(describe(position) + ": " + fmt::format(format, std::forward<Args>(args)...)));
 }
 
 /// What a message calls the text at an offset: "'x'", "the end of the line" or "the end of the file".

@@ -1,4 +1,5 @@
 // Laws of the command lsystem, run as a user runs it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -46,12 +47,13 @@ TEST(LsystemCommand, BadInputIsOneClearLine) {
   const fs::path folder = fresh_folder("lsystem_bad");
   const fs::path loop = write_lsystem(folder, "loop.lsys", "axiom: A\nlua:\n  while true do end\n");
   const fs::path grows = write_lsystem(folder, "grows.lsys", "axiom: A\nproductions:\n  A --> AA\n");
-  for (const std::string& arguments :
+  const std::string looping = fmt::format("'{}' --string", loop.string());
+  const std::string growing = fmt::format("'{}' --string --steps 60 --max-modules 1000", grows.string());
+  for (const char* arguments :
        {"nowhere.lsys --string", "ferm --string", "fern", "fern --string --steps=-1",
-        "fern --string --set x=1", "topiary_6 --string --set box=1000", "'" + loop.string() + "' --string",
-        "'" + grows.string() + "' --string --steps 60 --max-modules 1000"}) {
+        "fern --string --set x=1", "topiary_6 --string --set box=1000", looping.c_str(), growing.c_str()}) {
     SCOPED_TRACE(arguments);
-    expect_one_clear_error(run_espalier("lsystem " + std::string(arguments)));
+    expect_one_clear_error(run_espalier(fmt::format("lsystem {}", arguments)));
   }
 }
 

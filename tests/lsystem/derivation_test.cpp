@@ -123,6 +123,14 @@ TEST(Derivation, LuaHooksSeeStepsAndMayCarryState) {
             (Strings{"A(0)", "A(1)", "A(3)", "A(6)"}));
 }
 
+TEST(Derivation, NamesOfLuaCodeComeBeforeTheBuiltInOnes) {
+  EXPECT_EQ(strings_of("lua:\n  function min(a, b) return a*100 + b end\naxiom: A(1)\nproductions:\n A(x) "
+                       "--> A(min(x, 2))\n",
+                       1)
+                .back(),
+            "A(102)");
+}
+
 TEST(Derivation, BodiesThatProduceNothingLeaveTheModule) {
   EXPECT_EQ(strings_of("axiom: A(1)A(5)A(9)\nproductions:\n A(x) --> lua\n   if x < 3 then return end\n"
                        "   if x < 7 then produce('[B', x, ']') else produce() end\n",
