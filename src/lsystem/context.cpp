@@ -41,7 +41,7 @@ std::size_t StringIndex::previous(std::size_t i) const {
   return kNone;
 }
 
-bool StringIndex::match_left(std::size_t i, std::span<const PatternModule> pattern,
+bool StringIndex::match_path(std::size_t i, std::span<const PatternModule> pattern,
                              std::uint32_t* matched) const {
   for (std::size_t k = pattern.size(); k-- > 0;) {
     i = previous(i);
@@ -49,11 +49,6 @@ bool StringIndex::match_left(std::size_t i, std::span<const PatternModule> patte
     matched[k] = static_cast<std::uint32_t>(i);
   }
   return true;
-}
-
-bool StringIndex::match_right(std::size_t i, std::span<const PatternModule> pattern,
-                              std::uint32_t* matched) const {
-  return match_from(i + 1, pattern, matched);
 }
 
 bool StringIndex::match_from(std::size_t at, std::span<const PatternModule> pattern,

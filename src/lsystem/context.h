@@ -21,15 +21,33 @@ class StringIndex {
              std::span<const std::uint8_t> skipped, bool follow_branches);
 
   /// Whether the path before module `i` ends with `pattern`; writes the place of each matched module.
-  bool match_left(std::size_t i, std::span<const PatternModule> pattern, std::uint32_t* matched) const;
+  bool match_left(std::size_t i, std::span<const PatternModule> pattern, std::uint32_t* matched) const {
+    // Most contexts are one module that stands beside: no walk is needed.
+    if (pattern.size() == 1 && i > 0 && symbols_[i - 1] == pattern[0].symbol && is_plain(i - 1)) {
+      matched[0] = static_cast<std::uint32_t>(i - 1);
+      return true;
+    }
+    return pattern.empty() || match_path(i, pattern, matched);
+  }
   /// Whether what follows module `i` starts with `pattern`; writes the place of each matched module.
-  bool match_right(std::size_t i, std::span<const PatternModule> pattern, std::uint32_t* matched) const;
+  bool match_right(std::size_t i, std::span<const PatternModule> pattern, std::uint32_t* matched) const {
+    if (pattern.size() == 1 && i + 1 < size_ && is_plain(i + 1)) {
+      matched[0] = static_cast<std::uint32_t>(i + 1);
+      return symbols_[i + 1] == pattern[0].symbol;
+    }
+    return match_from(i + 1, pattern, matched);
+  }
 
   std::uint32_t value_offset(std::size_t module) const { return value_offset_[module]; }
 
  private:
   static constexpr std::size_t kNone = ~std::size_t{0};
 
+  /// A module that a context cannot look past.
+  bool is_plain(std::size_t i) const {
+    return symbols_[i] != open_ && symbols_[i] != close_ && !skipped_[symbols_[i]];
+  }
+  bool match_path(std::size_t i, std::span<const PatternModule> pattern, std::uint32_t* matched) const;
   std::size_t previous(std::size_t i) const;
   bool match_from(std::size_t at, std::span<const PatternModule> pattern, std::uint32_t* matched) const;
   bool match_branch(std::size_t at, std::span<const PatternModule> pattern, std::uint32_t* matched) const;

@@ -39,17 +39,26 @@ Rule::Rule(const Production& production, Workshop& workshop) : production_(&prod
                 std::any_of(arguments_.begin(), arguments_.end(), [](const auto& a) { return a.draws(); });
 }
 
-bool Rule::match_contexts(std::size_t module, const Rewriting& rewriting) {
-  const std::size_t contexts = production_->left.size() + production_->right.size();
-  if (contexts == 0) return true;
-  const std::size_t begin = matched_.size();
-  matched_.resize(begin + contexts);
-  std::uint32_t* matched = matched_.data() + begin;
-  const bool fits =
-      rewriting.index.match_left(module, production_->left, matched) &&
-      rewriting.index.match_right(module, production_->right, matched + production_->left.size());
-  if (!fits) matched_.resize(begin);
-  return fits;
+/// Keeps the candidates whose contexts fit, with the places of the modules there.
+void Rule::match_contexts(const Candidates& candidates, const StringIndex& index) {
+  const std::size_t left = production_->left.size(), contexts = left + production_->right.size();
+  hits_.resize(candidates.size());
+  if (contexts == 0) {
+    for (std::size_t i = 0; i < hits_.size(); ++i) hits_[i] = static_cast<std::uint16_t>(i);
+    return;
+  }
+  matched_.resize(candidates.size() * contexts);
+  std::uint32_t* matched = matched_.data();
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const std::size_t module = candidates.module[i];
+    if (!index.match_left(module, production_->left, matched) ||
+        !index.match_right(module, production_->right, matched + left))
+      continue;
+    hits_[hits++] = static_cast<std::uint16_t>(i);
+    matched += contexts;
+  }
+  hits_.resize(hits);
 }
 
 /// Fills the columns for the hits.
@@ -79,14 +88,12 @@ void Rule::gather(const Candidates& candidates, const Rewriting& rewriting) {
 }
 
 void Rule::match(const Candidates& candidates, const Rewriting& rewriting, Workshop& workshop) {
-  hits_.clear();
-  matched_.clear();
   bodies_.clear();
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (match_contexts(candidates.module[i], rewriting)) hits_.push_back(static_cast<std::uint16_t>(i));
+  match_contexts(candidates, rewriting.index);
+  if (hits_.empty()) return;
   gather(candidates, rewriting);
   make_keys(candidates, rewriting);
-  if (condition_ && !hits_.empty()) apply_condition(candidates, rewriting, workshop);
+  if (condition_) apply_condition(candidates, rewriting, workshop);
   if (!probability_ || hits_.empty()) return;
   weights_ = compute(*probability_, "probability", candidates, rewriting, workshop);
   for (std::size_t slot = 0; slot < hits_.size(); ++slot)

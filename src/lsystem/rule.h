@@ -100,7 +100,7 @@ class Rule {
   };
 
   void gather(const Candidates& candidates, const Rewriting& rewriting);
-  bool match_contexts(std::size_t module, const Rewriting& rewriting);
+  void match_contexts(const Candidates& candidates, const StringIndex& index);
   void apply_condition(const Candidates& candidates, const Rewriting& rewriting, Workshop& workshop);
   void compress(std::span<const std::uint8_t> keep_by_slot);
   void make_keys(const Candidates& candidates, const Rewriting& rewriting);
