@@ -78,6 +78,11 @@ void draw_frames(lsystem::Derivation& derivation, int steps, const LsystemOption
     draw(plants[static_cast<std::size_t>(frame)], camera, options, frame_path(options.output, frame));
 }
 
+/// CLI11 would read -1 as the largest number there is.
+std::string reject_negative(const std::string& text) {
+  return text.starts_with('-') ? fmt::format("got {}, expected a whole number from 0", text) : "";
+}
+
 void check_options(const LsystemOptions& options) {
   if (options.print_string == !options.output.empty())
     throw_input_error("got {} --string and -o, expected one of them",
@@ -113,7 +118,9 @@ void add_lsystem_command(CLI::App& app) {
   const auto options = std::make_shared<LsystemOptions>();
   command->add_option("file", options->file, "an .lsys file, or the name of a bundled one")->required();
   command->add_option("--steps", options->steps, "derivation steps; else those the file says");
-  command->add_option("--seed", options->seed, "seed of the random numbers")->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the random numbers")
+      ->check(reject_negative)
+      ->capture_default_str();
   command->add_option("--set", options->assignments, "change a parameter: name=value (repeatable)")
       ->allow_extra_args(false);
   command->add_flag("--string", options->print_string, "print the string instead of drawing it");
@@ -127,6 +134,7 @@ void add_lsystem_command(CLI::App& app) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option("--max-modules", options->limits.modules, "longest string that may be derived")
+      ->check(reject_negative)
       ->capture_default_str();
   command
       ->add_option("--max-lua", options->limits.lua_instructions,
