@@ -1,7 +1,8 @@
 #include "lsystem/model.h"
 
 #include <algorithm>
-#include <map>
+#include <mutex>
+#include <vector>
 
 #include "lsystem/bundled.h"
 #include "lsystem/derivation.h"
@@ -48,10 +49,8 @@ class LsystemModel : public Model {
 
   GrowthResult generate(std::span<const double> values, Seed seed, const GrowthSettings& growth,
                         Plant& plant) const override {
-    // One derivation a thread and model: a Lua state is no shared thing. Models live as long as the program.
-    thread_local std::map<const LsystemModel*, std::unique_ptr<Derivation>> derivations;
-    std::unique_ptr<Derivation>& derivation = derivations[this];
-    if (!derivation) derivation = std::make_unique<Derivation>(grammar_);
+    std::unique_ptr<Derivation> derivation = take_idle();
+    GrowthResult result;
     try {
       derivation->set_limits(limits_of(growth.budget));
       derivation->start(values.first(grammar_.parameters.rows.size()), seed);
@@ -59,17 +58,36 @@ class LsystemModel : public Model {
       Settings settings = derivation->settings();
       settings.unit_m = values.back();
       build_plant(derivation->interpreted(), derivation->alphabet(), settings, plant);
+      const double factor = std::max(static_cast<double>(plant.stems.size()) / growth.budget.max_stems,
+                                     static_cast<double>(plant.leaves.size()) / growth.budget.max_leaves);
+      result = {factor <= 1, factor};
     } catch (const TooManyModules&) {
-      return {false, 2};
+      result = {false, 2};
     }
-    const double factor = std::max(static_cast<double>(plant.stems.size()) / growth.budget.max_stems,
-                                   static_cast<double>(plant.leaves.size()) / growth.budget.max_leaves);
-    return {factor <= 1, factor};
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(derivation));
+    return result;
   }
 
  private:
+  /// A derivation that no other thread uses: they hold Lua states, which are no shared things. Which one it
+  /// is makes no difference to the plant.
+  std::unique_ptr<Derivation> take_idle() const {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!idle_.empty()) {
+        std::unique_ptr<Derivation> derivation = std::move(idle_.back());
+        idle_.pop_back();
+        return derivation;
+      }
+    }
+    return std::make_unique<Derivation>(grammar_);
+  }
+
   Grammar grammar_;
   ParameterTable table_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<Derivation>> idle_;
 };
 
 }  // namespace

@@ -152,7 +152,7 @@ class Parser {
   std::string new_name(Cursor& cursor) {
     cursor.skip_space();
     const Position position = cursor.position();
-    const std::string name = cursor.expect_word("a name");
+    std::string name = cursor.expect_word("a name");
     if (std::find(kLuaWords.begin(), kLuaWords.end(), name) != kLuaWords.end() || name == "step" ||
         name == "unit")
       throw_at(position, "got '{}', expected a name that is not taken by Lua, the step or the unit", name);
