@@ -28,8 +28,7 @@ Derivation::Derivation(const Grammar& grammar, const Limits& limits)
   const auto& names = grammar.names.globals;
   workshop_.functions.set_max_modules(limits.modules);
   workshop_.globals.assign(names.size(), 0);
-  for (const std::string& name : names) workshop_.lua.set_global(name, 0);
-  for (const LuaCode& code : grammar.lua) workshop_.lua.run(code.text, code.label);
+  run_lua_code();
   for (const Constant& constant : grammar.constants) {
     ConstantValue value;
     value.global =
@@ -50,6 +49,15 @@ Derivation::Derivation(const Grammar& grammar, const Limits& limits)
   interpretations_.emplace(grammar.interpretations, workshop_, limits);
   axiom_ = axiom_production(grammar, workshop_.alphabet.intern("axiom", 0));
   axiom_rewriter_.emplace(axiom_, workshop_, limits);
+}
+
+/// Variables of the code get their first values again, so that no derivation sees what the one before did.
+/// Constants are zero until then.
+void Derivation::run_lua_code() {
+  workshop_.lua.seal(false);
+  for (const std::string& name : workshop_.grammar.names.globals) workshop_.lua.set_global(name, 0);
+  for (const LuaCode& code : workshop_.grammar.lua) workshop_.lua.run(code.text, code.label);
+  workshop_.lua.seal(true);
 }
 
 void Derivation::set_limits(const Limits& limits) {
@@ -97,6 +105,7 @@ void Derivation::start(std::span<const double> parameters, Seed seed) {
   has_ended_ = false;
   modules_written_ = 0;
   workshop_.lua.reset_instructions();
+  run_lua_code();
   set_global(workshop_.globals.size() - 1, 0);
   for (ConstantValue& constant : constants_)
     set_global(constant.global,

@@ -50,6 +50,7 @@ class Derivation {
     std::vector<BlockExpression> values;
   };
 
+  void run_lua_code();
   double evaluate(BlockExpression& expression);
   void set_global(std::size_t global, double value);
   void evaluate_settings();

@@ -11,6 +11,7 @@ struct LuaState::Usage {
   Limits limits;
   std::size_t bytes = 0;
   double instructions = 0;
+  bool sealed = false;
 };
 
 namespace {
@@ -42,6 +43,19 @@ void count_instructions(lua_State* state, lua_Debug*) {
   if (usage->instructions > usage->limits.lua_instructions)
     luaL_error(state, "Lua ran for more than %d instructions, expected it to end sooner",
                static_cast<int>(usage->limits.lua_instructions));
+}
+
+/// Assigning to a global variable that is not there.
+template <typename Usage>
+int assign_new_global(lua_State* state) {
+  void* data = nullptr;
+  lua_getallocf(state, &data);
+  if (static_cast<Usage*>(data)->sealed)
+    return luaL_error(state,
+                      "got the new global variable '%s', expected 'local', or a first value in the lua: code",
+                      lua_tostring(state, 2));
+  lua_rawset(state, 1);
+  return 0;
 }
 
 void open_library(lua_State* state, lua_CFunction open, const char* name) {
@@ -101,6 +115,10 @@ LuaState::LuaState(const Limits& limits) : usage_(std::make_unique<Usage>(Usage{
   if (lua_cpcall(
           state_, [](lua_State* state) { return open_libraries(state); }, nullptr) != 0)
     throw InternalError("LuaJIT: " + take_message(state_));
+  lua_createtable(state_, 0, 1);
+  lua_pushcfunction(state_, assign_new_global<Usage>);
+  lua_setfield(state_, -2, "__newindex");
+  lua_setmetatable(state_, LUA_GLOBALSINDEX);
   lua_sethook(state_, count_instructions<Usage>, LUA_MASKCOUNT, kInstructionsPerCheck);
 }
 
@@ -159,6 +177,8 @@ void LuaState::call_hook(const std::string& name, std::span<const double> argume
   for (const double value : arguments) lua_pushnumber(state_, value);
   call(static_cast<int>(arguments.size()), 0);
 }
+
+void LuaState::seal(bool sealed) { usage_->sealed = sealed; }
 
 void LuaState::reset_instructions() { usage_->instructions = 0; }
 

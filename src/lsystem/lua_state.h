@@ -39,6 +39,8 @@ class LuaState {
   /// Calls what lies on the stack: a function and `arguments` values, of which `results` are left.
   /// Throws InputError with Lua's message.
   void call(int arguments, int results);
+  /// While sealed, code cannot make new global variables: what it changes is then what run() makes anew.
+  void seal(bool sealed);
   /// Starts counting instructions anew.
   void reset_instructions();
 

@@ -123,6 +123,22 @@ TEST(Derivation, LuaHooksSeeStepsAndMayCarryState) {
             (Strings{"A(0)", "A(1)", "A(3)", "A(6)"}));
 }
 
+TEST(Derivation, StartsWithFreshLuaVariables) {
+  const Grammar grammar = parse_grammar(
+      "lua:\n  made = {}\n  function next_one() made[#made + 1] = 1 return #made end\naxiom: "
+      "A(0)\nproductions:\n"
+      " A(x) --> A(next_one())\n",
+      "test.lsys");
+  Derivation derivation(grammar);
+  for (int i = 0; i < 2; ++i) {
+    derivation.start(1);
+    derivation.run(3);
+    EXPECT_EQ(derivation.text(), "A(3)");
+  }
+  EXPECT_THROW(strings_of("axiom: A\nproductions:\n A --> lua\n   kept = 1\n   produce('B')\n", 1),
+               InputError);
+}
+
 TEST(Derivation, NamesOfLuaCodeComeBeforeTheBuiltInOnes) {
   EXPECT_EQ(strings_of("lua:\n  function min(a, b) return a*100 + b end\naxiom: A(1)\nproductions:\n A(x) "
                        "--> A(min(x, 2))\n",
