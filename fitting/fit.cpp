@@ -117,7 +117,9 @@ class FitRun : public Observer {
                       std::vector<double>& scores);
   MinimizeResult minimize(const Objective& objective, long evaluations, std::span<const double> points);
   void search(const std::vector<StartPoint>& starts, const std::vector<double>& scores);
-  bool will_refine() const { return record_.budget.branch_rounds != 0 && record_.fit_seeds == 1; }
+  bool will_refine() const {
+    return record_.budget.branch_rounds != 0 && record_.fit_seeds == 1 && task_.model->has_branch_paths();
+  }
   bool search_time_is_over() const;
   void refine();
   void go_on_from(const BranchRounds& reached);
