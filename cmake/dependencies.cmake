@@ -13,6 +13,7 @@ find_package(Imath REQUIRED)
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(assimp REQUIRED IMPORTED_TARGET GLOBAL assimp)
 add_library(assimp::assimp ALIAS PkgConfig::assimp)
+pkg_check_modules(luajit REQUIRED IMPORTED_TARGET luajit)
 find_package(embree 3 REQUIRED)
 find_package(HWY REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers only: Boost.Math

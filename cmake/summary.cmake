@@ -1,6 +1,6 @@
 # Printed at the end of configuration: what was found, what is off and why.
 message(STATUS "Espalier ${PROJECT_VERSION}: ${CMAKE_BUILD_TYPE}, sanitizers: ${ESPALIER_SANITIZE}")
-message(STATUS "  Embree ${embree_VERSION}, OpenImageIO ${OpenImageIO_VERSION}, Eigen ${Eigen3_VERSION}, Assimp ${assimp_VERSION}")
+message(STATUS "  Embree ${embree_VERSION}, OpenImageIO ${OpenImageIO_VERSION}, Eigen ${Eigen3_VERSION}, Assimp ${assimp_VERSION}, LuaJIT ${luajit_VERSION}")
 foreach(optional GTest rapidcheck benchmark)
   if(${optional}_FOUND)
     message(STATUS "  ${optional}: found")

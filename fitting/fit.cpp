@@ -73,9 +73,17 @@ std::optional<SpeciesSpace> space_of(const FitRecord& record, const Model& model
   return bundled_species_space(model, components);
 }
 
+/// The refinement that a run to be resumed had begun, unless its search is now to go further.
+std::optional<BranchRounds> reached_rounds(const FitRecord& record, const fs::path& directory,
+                                           const FitOptions& options) {
+  std::optional<BranchRounds> reached = options.resume ? read_branch_rounds(directory) : std::nullopt;
+  if (reached && reached->search_limit != record.budget.evaluations) reached.reset();
+  return reached;
+}
+
 /// A search that refinement had followed ends where it ended then.
 long evaluation_limit(const FitRecord& record, const fs::path& directory, const FitOptions& options) {
-  const auto reached = options.resume ? read_branch_rounds(directory) : std::nullopt;
+  const auto reached = reached_rounds(record, directory, options);
   return reached ? reached->search_evaluations : record.budget.evaluations;
 }
 
@@ -109,7 +117,9 @@ class FitRun : public Observer {
                       std::vector<double>& scores);
   MinimizeResult minimize(const Objective& objective, long evaluations, std::span<const double> points);
   void search(const std::vector<StartPoint>& starts, const std::vector<double>& scores);
-  bool will_refine() const { return record_.budget.branch_rounds != 0 && record_.fit_seeds == 1; }
+  bool will_refine() const {
+    return record_.budget.branch_rounds != 0 && record_.fit_seeds == 1 && task_.model->has_branch_paths();
+  }
   bool search_time_is_over() const;
   void refine();
   void go_on_from(const BranchRounds& reached);
@@ -266,12 +276,13 @@ void FitRun::refine() {
   state_.stopped_by.reset();
   stage_ = "branches";
   state_.best = scorer_.best();
-  const auto reached = options_.resume ? read_branch_rounds(directory_) : std::nullopt;
+  const auto reached = reached_rounds(record_, directory_, options_);
   const Solution start{scorer_.best().values, task_.plant_seeds.front(), {}, scorer_.best().score};
   if (reached)
     go_on_from(*reached);
   else {
     state_.branches = begin_branch_rounds(task_, start, scorer_.evaluations());
+    state_.branches.search_limit = record_.budget.evaluations;
     note_round();
   }
   while (!stop_requested()) {

@@ -57,7 +57,7 @@ std::string trace_to_csv(const std::vector<TraceRow>& rows) {
       "pixel_accuracy,iou,dice,tolerant_iou,outline_iou,gap_iou,truncated_distance,stage\n";
   for (const TraceRow& row : rows)
     csv +=
-        fmt::format("{},{:.3f},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{}\n",
+        fmt::format("{},{:.3f},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{}\n",
                     row.evaluations, row.seconds, row.improved ? "improvement" : "batch", row.best,
                     row.batch_best, row.batch_median, row.batch_worst, row.metrics.pixel_accuracy,
                     row.metrics.iou, row.metrics.dice, row.metrics.tolerant_iou, row.metrics.outline_iou,

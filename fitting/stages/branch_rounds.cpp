@@ -74,7 +74,8 @@ std::string branch_rounds_to_json(const BranchRounds& state, const std::string& 
   nlohmann::ordered_json json = {{"model", model},
                                  {"rounds", state.rounds},
                                  {"steps", state.steps},
-                                 {"search_evaluations", state.search_evaluations}};
+                                 {"search_evaluations", state.search_evaluations},
+                                 {"search_limit", state.search_limit}};
   for (const Solution& lane : state.lanes)
     json["lanes"].push_back({{"values", lane.values},
                              {"plant_seed", lane.plant_seed},
@@ -89,7 +90,8 @@ BranchRounds branch_rounds_from_json(const std::string& text, const std::string&
     const nlohmann::json json = nlohmann::json::parse(text);
     BranchRounds state{.rounds = json.at("rounds"),
                        .steps = json.at("steps"),
-                       .search_evaluations = json.at("search_evaluations")};
+                       .search_evaluations = json.at("search_evaluations"),
+                       .search_limit = json.at("search_limit")};
     for (const nlohmann::json& from : json.at("lanes")) {
       Solution lane;
       lane.values = from.at("values").get<ParameterValues>();

@@ -24,6 +24,7 @@ struct BranchRounds {
   long rounds = 0;
   long steps = 0;                 ///< branches grown, drawn and scored, over all lanes
   long search_evaluations = 0;    ///< of the search before them
+  long search_limit = 0;          ///< that it was given: a search with another limit has another end
   std::vector<RoundRow> history;  ///< the first row is the state before the first round
 
   const Solution& best() const;

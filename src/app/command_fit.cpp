@@ -119,6 +119,8 @@ FitRecord new_record(const CLI::App& command, const FitArguments& arguments) {
   record.target.side = parse_tree_side(arguments.tree_side);
   if (command.count("--height") > 0) record.height_m = arguments.height_m;
   set_budget(command, record.budget);
+  // The bundled presets are starts for the parametric model alone.
+  if (record.model != FitRecord{}.model && command.count("--start") == 0) record.start = "defaults";
   set_branch_rounds(command, record);
   return record;
 }
@@ -219,6 +221,8 @@ void add_search_options(CLI::App& command, FitArguments& arguments) {
       ->capture_default_str();
   command.add_option("--fit-seeds", record.fit_seeds, "trees grown per candidate, averaged")
       ->capture_default_str();
+  command.add_option("--model", record.model, "weber_penn, or an L-system file NAME.lsys")
+      ->capture_default_str();
   command.add_option("--start", record.start, "auto (all presets), defaults, or presets: NAME,NAME")
       ->capture_default_str();
   command.add_option("--space", record.space,
@@ -259,13 +263,17 @@ void add_run_options(CLI::App& command, FitArguments& arguments) {
   CLI::Option* resume =
       command.add_option("--resume", arguments.resume, "go on with the run in this directory");
   CLI::Option* repeat = command.add_option("--repeat", arguments.repeat, "repeat the run in this directory");
-  for (const char* other : {"image",           "--views",     "--out",
-                            "--seed",          "--size",      "--height",
-                            "--separation",    "--tree-side", "--optimizer",
-                            "--set-optimizer", "--objective", "--fit-seeds",
-                            "--start",         "--space",     "--space-evaluations",
-                            "--free",          "--fix",       "--max-stems",
-                            "--max-leaves",    "--kind",      "--train-to-target",
+  for (const char* other : {"image",          "--views",
+                            "--out",          "--seed",
+                            "--size",         "--height",
+                            "--separation",   "--tree-side",
+                            "--optimizer",    "--set-optimizer",
+                            "--objective",    "--fit-seeds",
+                            "--model",        "--start",
+                            "--space",        "--space-evaluations",
+                            "--free",         "--fix",
+                            "--max-stems",    "--max-leaves",
+                            "--kind",         "--train-to-target",
                             "--branch-rounds"}) {
     resume->excludes(command.get_option(other));
     if (std::string(other) != "--out") repeat->excludes(command.get_option(other));

@@ -21,6 +21,7 @@ void add_mesh_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_experiment_command(CLI::App& app);
 void add_species_command(CLI::App& app);
+void add_lsystem_command(CLI::App& app);
 void add_space_command(CLI::App& app);
 void add_blend_command(CLI::App& app);
 void add_params_command(CLI::App& app);

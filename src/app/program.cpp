@@ -37,6 +37,7 @@ int run_program(int argc, const char* const* argv) {
   add_bench_command(app);
   add_experiment_command(app);
   add_species_command(app);
+  add_lsystem_command(app);
   add_space_command(app);
   add_blend_command(app);
   add_params_command(app);

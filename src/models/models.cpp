@@ -1,6 +1,11 @@
 #include "models/models.h"
 
+#include <map>
+#include <memory>
+#include <mutex>
+
 #include "core/error.h"
+#include "lsystem/model.h"
 #include "weber_penn/model.h"
 
 namespace espalier {
@@ -10,13 +15,24 @@ namespace {
 using ModelFunction = const Model& (*)();
 constexpr ModelFunction kModels[] = {weber_penn_model};
 
+/// Each is read once and lives as long as the program.
+const Model& lsystem_model(const std::string& name) {
+  static std::mutex mutex;
+  static std::map<std::string, std::unique_ptr<Model>> models;
+  const std::lock_guard lock(mutex);
+  std::unique_ptr<Model>& model = models[name];
+  if (!model) model = lsystem::make_model(name);
+  return *model;
+}
+
 }  // namespace
 
 const Model& model_by_name(const std::string& name) {
+  if (name.ends_with(".lsys")) return lsystem_model(name);
   for (const ModelFunction model : kModels)
     if (model().table().model == name) return model();
   const std::vector<std::string> known = model_names();
-  throw_input_error("got model '{}', expected one of: {}", name, fmt::join(known, ", "));
+  throw_input_error("got model '{}', expected an .lsys file or one of: {}", name, fmt::join(known, ", "));
 }
 
 std::vector<std::string> model_names() {

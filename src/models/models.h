@@ -7,7 +7,8 @@
 
 namespace espalier {
 
-/// The model with this name ("weber_penn"); throws InputError listing the models there are.
+/// The model with this name ("weber_penn"), or of an L-system file ("fern.lsys"); throws InputError listing
+/// the models there are.
 const Model& model_by_name(const std::string& name);
 
 std::vector<std::string> model_names();

@@ -83,6 +83,9 @@ std::string place_of(const BranchPath& path, const toml::table& document, const 
 /// Throws for paths that no plant of these values can have; those of too few children are dormant.
 void check_branches(const Preset& preset, const Model& model, const toml::table& document,
                     const PresetSource& source) {
+  if ((!preset.overrides.empty() || !preset.grown_into.empty()) && !model.has_branch_paths())
+    throw_input_error("{}: got overrides of branches, expected none: model '{}' has no paths of branches",
+                      source.label, preset.model);
   const BranchLimits limits = model.branch_limits(preset.values);
   for (const OverrideNode& node : preset.overrides.nodes) {
     const auto levels = std::count_if(node.path.begin(), node.path.end(),
@@ -121,6 +124,9 @@ std::vector<std::string> bundled_presets() {
 }
 
 Preset load_preset(const std::string& name_or_path) {
+  if (name_or_path.ends_with(".lsys"))  // an L-system with its defaults
+    return {std::filesystem::path(name_or_path).stem().string(), "", name_or_path,
+            model_by_name(name_or_path).table().defaults()};
   Chain chain;
   return load_chain(find_preset(name_or_path, {}), chain);
 }

@@ -71,12 +71,13 @@ void check_override(const Override& entry, const BranchPath& path, const std::st
 }
 
 void set_override(OverrideSet& set, const Override& entry) {
-  const auto place = std::find_if(set.overrides.begin(), set.overrides.end(),
-                                  [&](const Override& other) { return other.quantity == entry.quantity; });
-  if (place == set.overrides.end())
-    set.overrides.push_back(entry);
-  else
+  const auto place = std::lower_bound(
+      set.overrides.begin(), set.overrides.end(), entry,
+      [](const Override& a, const Override& b) { return a.quantity < b.quantity; });
+  if (place != set.overrides.end() && place->quantity == entry.quantity)
     *place = entry;
+  else
+    set.overrides.insert(place, entry);
 }
 
 }  // namespace espalier

@@ -62,6 +62,8 @@ class Model {
     (void)levels;
     return {values.begin(), values.end()};
   }
+  /// Whether the model follows `changes`, `only_part` and `train` of GrowthSettings, and numbers its stems.
+  virtual bool has_branch_paths() const { return false; }
   virtual BranchLimits branch_limits(std::span<const double> values) const {
     (void)values;
     return {};

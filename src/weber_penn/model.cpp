@@ -20,6 +20,8 @@ class WeberPennModel : public Model {
     return deepened_values(values, levels);
   }
 
+  bool has_branch_paths() const override { return true; }
+
   BranchLimits branch_limits(std::span<const double> values) const override {
     const WeberPennParameters p = weber_penn_parameters(values);
     return {p.level_count(), static_cast<std::uint32_t>(std::max(1.f, p.branches[0]))};

@@ -110,7 +110,7 @@ TEST(BranchRounds, GoOnFromWhatIsWrittenWithTheSameBits) {
 
 TEST(BranchRounds, TextThatIsNoStateIsRefused) {
   for (const char* text : {"", "{}", "[1]", "{\"rounds\": \"x\"}",
-                           R"({"rounds":1,"steps":1,"search_evaluations":1,"lanes":[]})"})
+                           R"({"rounds":1,"steps":1,"search_evaluations":1,"search_limit":1,"lanes":[]})"})
     EXPECT_THROW(branch_rounds_from_json(text, "branches.json"), InputError) << text;
 }
 

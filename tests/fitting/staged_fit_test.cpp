@@ -83,6 +83,18 @@ TEST(StagedFit, ResumedItIsTheUnbrokenRun) {
   EXPECT_EQ(whole["history"].size(), resumed["history"].size());
 }
 
+TEST(StagedFit, ResumedWithALongerSearchItRefinesWhatThatFinds) {
+  const fs::path unbroken = new_run("staged_longer"), broken = new_run("staged_shorter");
+  FitRecord longer = staged_record(1);
+  longer.budget.evaluations = 90;
+  fit(longer, unbroken);
+  fit(staged_record(1), broken);
+  FitOptions options;
+  options.resume = true;
+  fit(longer, broken, options);
+  EXPECT_EQ(read_text_file(broken / "best.toml"), read_text_file(unbroken / "best.toml"));
+}
+
 TEST(StagedFit, ThreadsDoNotChangeIt) {
   const fs::path one = new_run("staged_one"), two = new_run("staged_two");
   FitOptions options;

@@ -43,7 +43,7 @@ TEST(Trace, CsvHasAsManyFieldsInEachLine) {
   add(trace, 0, {0.5, 0.2}, 0.2, true);
   std::istringstream csv(trace_to_csv(trace.rows()));
   for (std::string line; std::getline(csv, line);)
-    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 13) << line;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 14) << line;
 }
 
 RC_GTEST_PROP(AxisTicks, AreRoundAndInside, ()) {

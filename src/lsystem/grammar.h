@@ -1,0 +1,98 @@
+// An L-system as read from a file: alphabet, constants, productions, tables, and how its strings are drawn.
+// Expressions are kept as text with their place; a Derivation compiles them. A grammar does not change once
+// it is read, and many threads may derive it.
+// Sources: [Topiary §2] the format of productions, [Herbaceous §4.3.3] tables.
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/parameter_table.h"
+#include "lsystem/program.h"
+#include "lsystem/source.h"
+#include "lsystem/symbols.h"
+
+namespace espalier::lsystem {
+
+struct Expression {
+  std::string text;
+  Position position;
+};
+
+/// A module of a predecessor: its parameters are names.
+struct PatternModule {
+  SymbolId symbol = 0;
+  std::vector<std::string> parameters;
+};
+
+/// A module of an axiom or a successor: its arguments are expressions.
+struct SuccessorModule {
+  SymbolId symbol = 0;
+  std::vector<Expression> arguments;
+};
+
+struct Production {
+  std::string name;  ///< its id, or "production N"
+  Position position;
+  std::vector<PatternModule> left;  ///< a path towards the root, in the order of the string
+  PatternModule predecessor;
+  std::vector<PatternModule> right;  ///< with brackets, in the order of the string
+  std::optional<Expression> condition;
+  std::vector<SuccessorModule> successor;
+  std::optional<Expression> lua_body;  ///< instead of a successor
+  std::optional<Expression> probability;
+  int table = -1;  ///< index of its table, -1 for none
+
+  bool is_context_sensitive() const { return !left.empty() || !right.empty(); }
+};
+
+/// A table of productions is used in the steps for which its condition holds.
+struct ProductionTable {
+  std::string name;
+  Expression condition;
+};
+
+/// A named value of the file, computed once for a derivation, in the order of the file.
+struct Constant {
+  std::string name;
+  Expression value;
+  std::optional<std::size_t> parameter;  ///< a row of Grammar::parameters instead of an expression
+};
+
+/// A setting such as "angle: 60", by name; its values are expressions of the constants.
+struct Setting {
+  std::string name;
+  std::vector<Expression> values;
+};
+
+struct LuaCode {
+  std::string text;  ///< with line breaks before it, so that Lua counts lines as the file does
+  std::string label;
+};
+
+struct Grammar {
+  std::string name;
+  std::vector<std::string> declared_symbols;
+  SymbolTable alphabet;
+  ParameterTable parameters;  ///< those that a search may vary
+  std::vector<Constant> constants;
+  Names names;
+  std::vector<Setting> settings;
+  std::vector<LuaCode> lua;
+  std::vector<SuccessorModule> axiom;
+  std::optional<Position> axiom_position;
+  std::vector<ProductionTable> tables;
+  std::vector<Production> productions, interpretations;
+  std::vector<std::string> ignored, considered;  ///< names of symbols, for contexts
+  bool has_considered = false;                   ///< then only those count
+  bool follow_branches = false;                  ///< right contexts look into branches too
+};
+
+/// Reads a file and what it includes. Throws InputError with file, line, column, got and expected.
+Grammar read_grammar(const std::string& path);
+
+/// Reads an L-system from text; messages call it `label`. Includes are refused.
+Grammar parse_grammar(const std::string& text, const std::string& label);
+
+}  // namespace espalier::lsystem

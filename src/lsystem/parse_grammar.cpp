@@ -1,0 +1,329 @@
+// The statements of an L-system file, one function a keyword; see docs/lsystem.md for the notation.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <set>
+
+#include "core/files.h"
+#include "lsystem/grammar.h"
+#include "lsystem/parse_modules.h"
+#include "lsystem/parse_production.h"
+#include "lsystem/settings.h"
+#include "lsystem/statements.h"
+
+namespace espalier::lsystem {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array kLuaWords{"and",      "break",  "do",   "else", "elseif", "end",  "false", "for",
+                               "function", "goto",   "if",   "in",   "local",  "nil",  "not",   "or",
+                               "repeat",   "return", "then", "true", "until",  "while"};
+
+/// Names that Lua code gives a value: words before a '=' or after "function". They are Lua's from then on.
+void collect_assigned(std::string_view code, std::set<std::string, std::less<>>& names) {
+  const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  std::string_view before;
+  for (std::size_t i = 0; i < code.size();) {
+    const std::size_t begin = i;
+    while (i < code.size() && is_word(code[i])) ++i;
+    if (i == begin) {
+      ++i;
+      continue;
+    }
+    const std::string_view word = code.substr(begin, i - begin);
+    const std::size_t next = std::min(code.find_first_not_of(" \t", i), code.size());
+    const bool assigned = code.substr(next).starts_with('=') && !code.substr(next).starts_with("==");
+    if (assigned || before == "function") names.emplace(word);
+    before = word;
+  }
+}
+
+class Parser {
+ public:
+  explicit Parser(Grammar& grammar) : grammar_(grammar) {}
+
+  void parse(std::shared_ptr<const Source> source, bool may_include) {
+    const FileText file = split_statements(std::move(source));
+    declare_symbols(file);
+    for (const Statement& statement : file.statements) {
+      Cursor cursor(file, statement.begin, statement.end);
+      parse_statement(cursor, may_include);
+    }
+  }
+
+  void finish(const std::shared_ptr<const Source>& source) {
+    grammar_.names.globals.push_back("step");
+    if (!grammar_.axiom_position) throw_at({source, 0}, "got no axiom, expected a line 'axiom: …'");
+  }
+
+ private:
+  using Handler = void (Parser::*)(Cursor&);
+
+  /// Before all else, because they say how strings are cut into modules.
+  void declare_symbols(const FileText& file) {
+    for (const Statement& statement : file.statements) {
+      Cursor cursor(file, statement.begin, statement.end);
+      if (!cursor.take("symbols:")) continue;
+      while (!cursor.at_end()) grammar_.declared_symbols.push_back(cursor.expect_word("a name"));
+    }
+  }
+
+  void parse_statement(Cursor& cursor, bool may_include) {
+    static const std::map<std::string, Handler, std::less<>> kHandlers{
+        {"axiom:", &Parser::parse_axiom},
+        {"symbols:", &Parser::skip},
+        {"ignore:", &Parser::parse_ignored},
+        {"consider:", &Parser::parse_considered},
+        {"productions:", &Parser::open_productions},
+        {"interpretation:", &Parser::open_interpretation},
+        {"lua:", &Parser::parse_lua},
+        {"branches:", &Parser::parse_branches},
+        {"const ", &Parser::parse_constants},
+        {"param ", &Parser::parse_parameter},
+        {"let ", &Parser::parse_let},
+        {"table ", &Parser::open_table}};
+    for (const auto& [keyword, handler] : kHandlers)
+      if (cursor.rest().starts_with(keyword)) {
+        cursor.go_to(cursor.at() + keyword.size());
+        return (this->*handler)(cursor);
+      }
+    if (cursor.rest().starts_with("include ")) return parse_include(cursor, may_include);
+    if (!parse_setting(cursor)) read_production(cursor);
+  }
+
+  void skip(Cursor&) {}
+
+  void parse_axiom(Cursor& cursor) {
+    if (grammar_.axiom_position) throw_at(cursor.position(), "got a second axiom, expected one");
+    grammar_.axiom_position = cursor.position();
+    grammar_.axiom = parse_successor(cursor, grammar_);
+    if (!cursor.at_end()) cursor.fail("the end of the axiom");
+  }
+
+  void parse_names(Cursor& cursor, std::vector<std::string>& names) {
+    while (!cursor.at_end()) {
+      const std::size_t length = symbol_length(cursor.rest(), grammar_.declared_symbols);
+      if (length == 0) cursor.fail("a symbol");
+      names.emplace_back(cursor.rest().substr(0, length));
+      cursor.go_to(cursor.at() + length);
+    }
+  }
+  void parse_ignored(Cursor& cursor) { parse_names(cursor, grammar_.ignored); }
+  void parse_considered(Cursor& cursor) {
+    parse_names(cursor, grammar_.considered);
+    grammar_.has_considered = true;
+  }
+
+  void parse_branches(Cursor& cursor) {
+    grammar_.follow_branches = cursor.take("follow");
+    if (!grammar_.follow_branches && !cursor.take("skip")) cursor.fail("'skip' or 'follow'");
+    if (!cursor.at_end()) cursor.fail("the end of the line");
+  }
+
+  void open_productions(Cursor& cursor) { open_section(cursor, &grammar_.productions); }
+  void open_interpretation(Cursor& cursor) { open_section(cursor, &grammar_.interpretations); }
+  void open_section(Cursor& cursor, std::vector<Production>* section) {
+    if (!cursor.at_end()) cursor.fail("the end of the line");
+    section_ = section;
+    table_ = -1;
+  }
+
+  void open_table(Cursor& cursor) {
+    ProductionTable table{cursor.expect_word("the name of a table"), {}};
+    cursor.expect("when");
+    table.condition = parse_expression(cursor, ":");
+    cursor.expect(":");
+    if (!cursor.at_end()) cursor.fail("the end of the line");
+    grammar_.tables.push_back(table);
+    section_ = &grammar_.productions;
+    table_ = static_cast<int>(grammar_.tables.size()) - 1;
+  }
+
+  void parse_lua(Cursor& cursor) {
+    collect_assigned(cursor.rest(), grammar_.names.from_lua);
+    grammar_.lua.push_back({lua_code(cursor, cursor.at(), cursor.rest()), cursor.position().source->label});
+  }
+
+  std::string new_name(Cursor& cursor) {
+    cursor.skip_space();
+    const Position position = cursor.position();
+    std::string name = cursor.expect_word("a name");
+    if (std::find(kLuaWords.begin(), kLuaWords.end(), name) != kLuaWords.end() || name == "step" ||
+        name == "unit")
+      throw_at(position, "got '{}', expected a name that is not taken by Lua, the step or the unit", name);
+    if (!taken_.insert(name).second)
+      throw_at(position, "got '{}' a second time, expected another name", name);
+    return name;
+  }
+
+  void parse_constants(Cursor& cursor) {
+    do {
+      const std::string name = new_name(cursor);
+      cursor.expect("=");
+      grammar_.constants.push_back({name, parse_expression(cursor, ","), std::nullopt});
+      grammar_.names.globals.push_back(name);
+    } while (cursor.take(","));
+    if (!cursor.at_end()) cursor.fail("',' or the end of the line");
+  }
+
+  double parse_number(Cursor& cursor, std::string_view what) {
+    cursor.skip_space();
+    const std::string text(cursor.rest().substr(0, 40));
+    char* stop = nullptr;
+    const double value = std::strtod(text.c_str(), &stop);
+    // "0..1": the range's dots are none of the number's.
+    std::size_t length = static_cast<std::size_t>(stop - text.c_str());
+    if (length > 0 && text[length - 1] == '.' && text[length] == '.') --length;
+    if (length == 0 || !std::isfinite(value)) cursor.fail(what);
+    cursor.go_to(cursor.at() + length);
+    return value;
+  }
+
+  /// param angle = 32 in 10 .. 60 deg "angle of the branch"
+  void parse_parameter(Cursor& cursor) {
+    ParameterInfo row;
+    row.name = new_name(cursor);
+    cursor.expect("=");
+    const Position position = cursor.position();
+    row.default_value = parse_number(cursor, "a number");
+    cursor.expect("in");
+    row.lower = row.search_lower = parse_number(cursor, "the lower bound");
+    cursor.expect("..");
+    row.upper = row.search_upper = parse_number(cursor, "the upper bound");
+    parse_scale_and_unit(cursor, row);
+    parse_help(cursor, row);
+    row.free_by_default = true;
+    if (!(row.lower < row.upper))
+      throw_at(position, "got bounds {} .. {}, expected the lower one first", row.lower, row.upper);
+    check_value(row, row.default_value, describe(position));
+    grammar_.constants.push_back({row.name, {"", position}, grammar_.parameters.rows.size()});
+    grammar_.names.globals.push_back(row.name);
+    grammar_.parameters.rows.push_back(row);
+  }
+
+  static void parse_scale_and_unit(Cursor& cursor, ParameterInfo& row) {
+    row.unit = "1";
+    while (!cursor.at_end() && cursor.rest()[0] != '"') {
+      const Position position = cursor.position();
+      const std::string word = cursor.expect_word("integer, logarithmic, deg or \"help\"");
+      if (word == "integer")
+        row.scale = Scale::integer;
+      else if (word == "logarithmic")
+        row.scale = Scale::logarithmic;
+      else if (word == "deg")
+        row.unit = word;
+      else
+        throw_at(position, "got '{}', expected integer, logarithmic or deg", word);
+    }
+    if (row.scale == Scale::logarithmic && row.lower <= 0)
+      throw_at(cursor.position(), "got lower bound {}, expected one above 0 for a logarithmic parameter",
+               row.lower);
+  }
+
+  static void parse_help(Cursor& cursor, ParameterInfo& row) {
+    if (!cursor.take("\"")) return;
+    const std::size_t end = cursor.rest().find('"');
+    if (end == std::string_view::npos) cursor.fail("'\"' after the help");
+    row.help = std::string(cursor.rest().substr(0, end));
+    cursor.go_to(cursor.at() + end + 1);
+    if (!cursor.at_end()) cursor.fail("the end of the line");
+  }
+
+  /// let prune(x, y) = x^2 + y^2 > L^2
+  void parse_let(Cursor& cursor) {
+    LetFunction function;
+    function.name = new_name(cursor);
+    cursor.expect("(");
+    do function.parameters.push_back(cursor.expect_word("the name of a parameter"));
+    while (cursor.take(","));
+    cursor.expect(")");
+    cursor.expect("=");
+    const Expression body = parse_expression(cursor, "");
+    function.body = body.text;
+    grammar_.names.functions.push_back(function);
+    // Lua sees it as well, for expressions that are left to it.
+    std::string parameters;
+    for (const std::string& name : function.parameters) parameters += (parameters.empty() ? "" : ", ") + name;
+    const std::string code =
+        fmt::format("function {}({}) return {} end", function.name, parameters, function.body);
+    grammar_.lua.push_back({lua_code(cursor, body.position.offset, code), cursor.position().source->label});
+  }
+
+  void parse_include(Cursor& cursor, bool may_include) {
+    cursor.take("include");
+    cursor.skip_space();
+    const Position position = cursor.position();
+    cursor.expect("\"");
+    const std::size_t end = cursor.rest().find('"');
+    if (end == std::string_view::npos) cursor.fail("'\"' after the file's name");
+    const std::string name(cursor.rest().substr(0, end));
+    if (!may_include) throw_at(position, "got an include, expected none in an L-system that is no file");
+    // A file from a stranger must not show what else is on the disk.
+    if (name.find('/') != std::string::npos || name.find('\\') != std::string::npos ||
+        !name.ends_with(".lsys"))
+      throw_at(position, "got include \"{}\", expected the name of an .lsys file in the same folder", name);
+    const fs::path path = position.source->folder / name;
+    if (!included_.insert(name).second)
+      throw_at(position, "got include \"{}\" a second time, expected it once", name);
+    auto source = std::make_shared<Source>(Source{path.string(), position.source->folder, read_file(path)});
+    parse(std::move(source), true);
+  }
+
+  bool parse_setting(Cursor& cursor) {
+    const std::size_t begin = cursor.at();
+    const std::string name(cursor.take_word());
+    const SettingInfo* info = find_setting(name);
+    if (!info || !cursor.take(":") || cursor.rest().find("-->") != std::string_view::npos) {
+      cursor.go_to(begin);
+      return false;
+    }
+    Setting setting{name, parse_expressions(cursor, "")};
+    if (setting.values.size() != info->value_count)
+      throw_at(cursor.position(begin), "setting '{}': got {} values, expected {}", name,
+               setting.values.size(), info->value_count);
+    grammar_.settings.push_back(setting);
+    return true;
+  }
+
+  void read_production(Cursor& cursor) {
+    if (!section_ || cursor.rest().find("-->") == std::string_view::npos)
+      cursor.fail(section_ ? "a production with '-->', a setting or a keyword (see docs/lsystem.md)"
+                           : "a keyword, a setting, or 'productions:' before the first production");
+    section_->push_back(parse_production(cursor, grammar_, section_->size() + 1));
+    section_->back().table = table_;
+  }
+
+  Grammar& grammar_;
+  std::vector<Production>* section_ = nullptr;
+  int table_ = -1;
+  std::set<std::string> taken_, included_;
+};
+
+Grammar parse_source(const std::shared_ptr<const Source>& source, const std::string& name, bool may_include) {
+  Grammar grammar;
+  grammar.name = grammar.parameters.model = name;
+  Parser parser(grammar);
+  parser.parse(source, may_include);
+  parser.finish(source);
+  return grammar;
+}
+
+}  // namespace
+
+Grammar read_grammar(const std::string& path) {
+  const fs::path file = path;
+  const auto source = std::make_shared<Source>(Source{path, file.parent_path(), read_file(file)});
+  return parse_source(source, file.stem().string(), true);
+}
+
+Grammar parse_grammar(const std::string& text, const std::string& label) {
+  return parse_source(std::make_shared<Source>(Source{label, {}, text}), fs::path(label).stem().string(),
+                      false);
+}
+
+}  // namespace espalier::lsystem

@@ -1,0 +1,66 @@
+#include "lsystem/triangle_leaves.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "plant/leaf_outlines.h"
+
+namespace espalier::lsystem {
+
+namespace {
+
+constexpr int kTriangularShape = 10;
+
+/// Half the width of the triangular outline, whose base runs through the stalk and whose tip is at y = 1.
+float half_base() {
+  float half = 0;
+  for (const Vec3 vertex : leaf_outline(kTriangularShape).vertices) half = std::max(half, vertex.x);
+  return half;
+}
+
+void add_triangle(const Triangle& triangle, float half_base, Leaves& leaves) {
+  const Vec3 foot = (triangle[0] + triangle[1]) * 0.5f;
+  const Vec3 side = triangle[1] - foot, axis = triangle[2] - foot;
+  if (!(length(side) > 0) || !(length(axis) > 0)) return;
+  leaves.position_m.push_back(foot);
+  leaves.axis.push_back(normalized(axis));
+  leaves.side.push_back(normalized(side));
+  leaves.length_m.push_back(length(axis));
+  leaves.width_m.push_back(length(side) / half_base);
+  leaves.kind.push_back(LeafKind::leaf);
+}
+
+void copy_leaf(const Leaves& from, std::size_t i, Leaves& to) {
+  to.position_m.push_back(from.position_m[i]);
+  to.axis.push_back(from.axis[i]);
+  to.side.push_back(from.side[i]);
+  to.length_m.push_back(from.length_m[i]);
+  to.width_m.push_back(from.width_m[i]);
+  to.kind.push_back(from.kind[i]);
+}
+
+}  // namespace
+
+void draw_as_triangles(const std::vector<Triangle>& triangles, Plant& plant) {
+  const float half = half_base();
+  const LeafOutline& outline = leaf_outline(plant.leaf_shape);
+  const Leaves& old = plant.leaves;
+  Leaves leaves;
+  for (std::size_t i = 0; i < old.size(); ++i) {
+    if (old.kind[i] == LeafKind::blossom) {
+      copy_leaf(old, i, leaves);
+      continue;
+    }
+    const auto place = [&](const Vec3& v) {
+      return old.position_m[i] + old.side[i] * (v.x * old.width_m[i]) + old.axis[i] * (v.y * old.length_m[i]);
+    };
+    for (const auto& [a, b, c] : outline.triangles)
+      add_triangle({place(outline.vertices[a]), place(outline.vertices[b]), place(outline.vertices[c])}, half,
+                   leaves);
+  }
+  for (const Triangle& triangle : triangles) add_triangle(triangle, half, leaves);
+  plant.leaves = std::move(leaves);
+  plant.leaf_shape = kTriangularShape;
+}
+
+}  // namespace espalier::lsystem

@@ -1,0 +1,14 @@
+// Triangles in a plant: each as a leaf of the triangular outline (plant/leaf_outlines.h, shape 10), whose
+// side and axis need not be at right angles.
+#pragma once
+#include <vector>
+
+#include "lsystem/polygon.h"
+#include "plant/plant.h"
+
+namespace espalier::lsystem {
+
+/// Turns the plant's leaves into triangles, adds these, and gives it the triangular outline; blossoms stay.
+void draw_as_triangles(const std::vector<Triangle>& triangles, Plant& plant);
+
+}  // namespace espalier::lsystem

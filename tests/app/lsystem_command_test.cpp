@@ -1,0 +1,73 @@
+// Laws of the command lsystem, run as a user runs it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "support/run_espalier.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path write_lsystem(const fs::path& folder, const std::string& name, const std::string& text) {
+  std::ofstream(folder / name) << text;
+  return folder / name;
+}
+
+TEST(LsystemCommand, PrintsTheDerivation) {
+  const ProgramRun run = run_espalier("lsystem topiary_2 --steps 3 --string");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.out, "F(3)?P(0,3)-F(2)?P(2,3)-F(1)?P(2,2)-A\n");
+}
+
+TEST(LsystemCommand, DrawsAPictureAndASequence) {
+  const fs::path folder = fresh_folder("lsystem");
+  const std::string size = " --size 40 --samples 1";
+  EXPECT_EQ(
+      run_espalier("lsystem fern --steps 6 -o '" + (folder / "fern.png").string() + "'" + size).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "fern.png"));
+  EXPECT_EQ(
+      run_espalier("lsystem raceme --frames 3 -o '" + (folder / "r.png").string() + "'" + size).exit_code, 0);
+  for (const char* frame : {"r_000.png", "r_001.png", "r_002.png"})
+    EXPECT_TRUE(fs::exists(folder / frame)) << frame;
+}
+
+TEST(LsystemCommand, ReadsIncludesOfTheSameFolder) {
+  const fs::path folder = fresh_folder("lsystem_include");
+  write_lsystem(folder, "rules.lsys", "productions:\n  A --> AB\n");
+  const fs::path file = write_lsystem(folder, "main.lsys", "axiom: A\ninclude \"rules.lsys\"\n");
+  EXPECT_EQ(run_espalier("lsystem '" + file.string() + "' --steps 2 --string").out, "ABB\n");
+  const fs::path out = write_lsystem(folder, "out.lsys", "axiom: A\ninclude \"../etc/passwd\"\n");
+  expect_one_clear_error(run_espalier("lsystem '" + out.string() + "' --steps 2 --string"));
+}
+
+TEST(LsystemCommand, BadInputIsOneClearLine) {
+  const fs::path folder = fresh_folder("lsystem_bad");
+  const fs::path loop = write_lsystem(folder, "loop.lsys", "axiom: A\nlua:\n  while true do end\n");
+  const fs::path grows = write_lsystem(folder, "grows.lsys", "axiom: A\nproductions:\n  A --> AA\n");
+  const std::string looping = fmt::format("'{}' --string", loop.string());
+  const std::string growing = fmt::format("'{}' --string --steps 60 --max-modules 1000", grows.string());
+  for (const char* arguments :
+       {"nowhere.lsys --string", "ferm --string", "fern", "fern --string --steps=-1",
+        "fern --string --set x=1", "topiary_6 --string --set box=1000", looping.c_str(), growing.c_str()}) {
+    SCOPED_TRACE(arguments);
+    expect_one_clear_error(run_espalier(fmt::format("lsystem {}", arguments)));
+  }
+}
+
+TEST(LsystemCommand, LsystemsAreModels) {
+  const fs::path folder = fresh_folder("lsystem_model");
+  const std::string mask = (folder / "mask.png").string(), run = (folder / "run").string();
+  EXPECT_EQ(run_espalier("mask monopodial.lsys --size 64 --set branch_angle=50 -o '" + mask + "'").exit_code,
+            0);
+  const ProgramRun fit = run_espalier(
+      "fit '" + mask + "' --model monopodial.lsys --free branch_angle,trunk_ratio --evaluations 30 --out '" +
+      run + "'");
+  EXPECT_EQ(fit.exit_code, 0) << fit.err;
+  EXPECT_EQ(run_espalier("mask '" + run + "/best.toml' -o '" + mask + "'").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,194 @@
+// The bundled L-systems against what the papers say of them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "lsystem/bundled.h"
+#include "lsystem/plant_builder.h"
+#include "lsystem/strings.h"
+
+namespace espalier::lsystem {
+namespace {
+
+std::size_t count(const std::string& string, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = string.find(part); at != std::string::npos; at = string.find(part, at + 1)) ++found;
+  return found;
+}
+
+/// The contents of the branches that `opening` starts, in the order of the string.
+Strings branches(const std::string& string, const std::string& opening) {
+  Strings found;
+  for (std::size_t at = string.find(opening); at != std::string::npos;) {
+    int depth = 0;
+    std::size_t end = at;
+    do depth += string[end] == '[' ? 1 : string[end] == ']' ? -1 : 0;
+    while (depth > 0 && ++end < string.size());
+    found.push_back(string.substr(at, end - at));
+    at = string.find(opening, end);
+  }
+  return found;
+}
+
+// [Topiary, Fig. 4]: the axis is out of the box; it and its last internode go and S is there; S has woken
+// the bud; the branch's apex goes, and then S is there again.
+TEST(PaperModels, PruningSignalsWakeTheBudBelow) {
+  const Strings strings = strings_of(load_grammar("topiary_4"), 12);
+  const auto segments = [&](std::size_t step) { return count(strings[step], "F"); };
+  EXPECT_EQ(count(strings[6], "T"), 1u);
+  EXPECT_EQ(count(strings[7], "S"), 1u);
+  EXPECT_EQ(segments(7), segments(6) - 1);
+  EXPECT_EQ(count(strings[7], "A"), 0u);
+  EXPECT_EQ(count(strings[8], "[+FA"), 1u);
+  EXPECT_EQ(count(strings[8], "@o"), count(strings[7], "@o") - 1);
+  EXPECT_EQ(count(strings[9], "A"), 0u);
+  EXPECT_EQ(count(strings[10], "[+S]"), 1u);
+  EXPECT_EQ(count(strings[11], "@oSF"), 1u);
+  EXPECT_EQ(count(strings[12], "[+FA"), 1u);
+}
+
+// [Topiary, Eq. 1]: N(k+1) = N(k)·(1 + (2k+1)/k²), at most twice: 1, 2, 4, then 4k²/9.
+TEST(PaperModels, BifurcationSlowsDownAsItsEquationSays) {
+  const Grammar grammar = load_grammar("topiary_5");
+  Derivation derivation(grammar);
+  constexpr int kSeeds = 200, kSteps = 14;
+  double sum = 0, squares = 0;
+  for (Seed seed = 1; seed <= kSeeds; ++seed) {
+    derivation.start(seed);
+    derivation.run(kSteps);
+    const auto apices = static_cast<double>(count(derivation.text(), "A("));
+    sum += apices;
+    squares += apices * apices;
+  }
+  const double mean = sum / kSeeds, error = std::sqrt((squares / kSeeds - mean * mean) / kSeeds);
+  const double expected = 4.0 * (kSteps + 1) * (kSteps + 1) / 9;
+  EXPECT_NEAR(mean, expected, 4 * error);
+  EXPECT_LT(error, 0.03 * expected);
+}
+
+TEST(PaperModels, TopiaryStaysNearItsBox) {
+  const Grammar grammar = load_grammar("topiary_6");
+  Derivation derivation(grammar);
+  derivation.start(3);
+  derivation.run(27);
+  Plant plant;
+  build_plant(derivation.interpreted(), derivation.alphabet(), derivation.settings(), plant);
+  const double reach_m = 0.1 * (12.0 / 2 + 2.5);  // an apex is cut one step after it left, leaves stick out
+  for (const Vec3& point : plant.knots.point_m) {
+    EXPECT_LT(std::fabs(point.x), reach_m);
+    EXPECT_LT(point.z, 0.1 * 14.5);
+  }
+  EXPECT_GT(plant.stems.size(), 100u);
+}
+
+/// When each lateral branch flowered, and how many internodes it had then.
+struct Flowering {
+  int step = 0;
+  std::size_t internodes = 0;
+};
+
+std::map<std::size_t, Flowering> flowerings(const Grammar& grammar, int steps) {
+  std::map<std::size_t, Flowering> by_branch;
+  const Strings strings = strings_of(grammar, steps);
+  for (int step = 0; step <= steps; ++step) {
+    const Strings lateral = branches(strings[static_cast<std::size_t>(step)], "[&(45)");
+    for (std::size_t k = 0; k < lateral.size(); ++k)
+      if (count(lateral[k], "K(") > 0 && !by_branch.contains(k))
+        by_branch[k] = {step, count(lateral[k], "J")};
+  }
+  return by_branch;
+}
+
+// [Herbaceous §4.4.1]: t = k(un − vm)/(n − v) + dn/(n − v), l = −(k/n)(m − u)·n/(n − v) + d/(n − v), which
+// ignores that both are whole numbers.
+void expect_flowering(const Grammar& grammar, double d, double m, double n, double u, double v) {
+  const auto by_branch = flowerings(grammar, 60);
+  ASSERT_GE(by_branch.size(), 3u);
+  for (const auto& [branch, flowering] : by_branch) {
+    const double k = static_cast<double>(branch) + 1;
+    const double time = k * (u * n - v * m) / (n - v) + d * n / (n - v);
+    const double length = -k * (m - u) / (n - v) + d / (n - v);
+    EXPECT_NEAR(flowering.step, time, 2 * n + 1) << "branch " << k;
+    EXPECT_NEAR(static_cast<double>(flowering.internodes), length, 2) << "branch " << k;
+  }
+}
+
+TEST(PaperModels, FlowersOpenUpwardsWhereDeltaIsPositive) {
+  const Grammar grammar = load_grammar("inflorescence_acropetal");
+  expect_flowering(grammar, 12, 2, 3, 1, 1);
+  int last = 0;
+  for (const auto& [branch, flowering] : flowerings(grammar, 60)) {
+    EXPECT_GE(flowering.step, last) << branch;
+    last = flowering.step;
+  }
+}
+
+TEST(PaperModels, FlowersOpenDownwardsWhereDeltaIsNegative) {
+  const Grammar grammar = load_grammar("inflorescence_basipetal");
+  expect_flowering(grammar, 12, 3, 3, 1, 2);
+  int last = 1000;
+  for (const auto& [branch, flowering] : flowerings(grammar, 60)) {
+    EXPECT_LE(flowering.step, last) << branch;
+    last = flowering.step;
+  }
+}
+
+// [Herbaceous §6]: the left half of the leaf. Its print lost brackets; without them it is our third string,
+// with the axiom counted as the first.
+TEST(PaperModels, CordateLeafHasThePrintedString) {
+  const std::string text =
+      "axiom: [A][B]\nproductions:\n p1: A --> [+A?]C#\n p2: B --> [-B?]C#\n p3: C --> IC\n";
+  const std::string left = strings_of(text, 3).back();
+  EXPECT_EQ(left.substr(0, left.size() / 2), "[[+[+[+A?]C#?]IC#?]IIC#]");
+  const auto without_brackets = [](std::string string) {
+    std::erase_if(string, [](char c) { return c == '[' || c == ']'; });
+    return string;
+  };
+  EXPECT_EQ(without_brackets(left.substr(0, left.size() / 2)), without_brackets("[+[[+[[+A?]C#?]IC#?]IIC#]"));
+}
+
+// [Blender thesis, listing 5.1]: the flowering sequence is basipetal.
+TEST(PaperModels, WallLettuceFlowersFromTheTopDownwards) {
+  const Grammar grammar = load_grammar("mycelis");
+  const Strings strings = strings_of(grammar, 100);
+  std::map<std::size_t, int> first_flower;
+  int main_axis = 0;
+  for (int step = 0; step <= 100; ++step) {
+    const std::string& string = strings[static_cast<std::size_t>(step)];
+    if (main_axis == 0 && count(string, "O(") > 0) main_axis = step;
+    const Strings lateral = branches(string, "[+(30)");
+    for (std::size_t k = 0; k < lateral.size(); ++k)
+      if (count(lateral[k], "O(") > 0) first_flower.try_emplace(k, step);
+  }
+  ASSERT_GE(first_flower.size(), 4u);
+  int above = 1000;
+  for (const auto& [branch, step] : first_flower) {
+    EXPECT_LT(step, above) << "branch " << branch;
+    EXPECT_GT(step, main_axis);
+    above = step;
+  }
+}
+
+TEST(PaperModels, EachOneGrowsAPlantThatRepeats) {
+  for (const std::string& name : bundled_names()) {
+    SCOPED_TRACE(name);
+    const Grammar grammar = load_grammar(name);
+    Plant plants[2];
+    for (Plant& plant : plants) {
+      Derivation derivation(grammar);
+      derivation.start(5);
+      derivation.run(derivation.settings().steps);
+      build_plant(derivation.interpreted(), derivation.alphabet(), derivation.settings(), plant);
+    }
+    EXPECT_GT(plants[0].stems.size() + plants[0].leaves.size(), 0u);
+    EXPECT_EQ(plants[0].knots.radius_m, plants[1].knots.radius_m);
+    const Bounds box = bounds(plants[0]), again = bounds(plants[1]);
+    EXPECT_TRUE(std::isfinite(box.upper.z) && box.upper.z > box.lower.z);
+    EXPECT_TRUE(box.upper == again.upper && box.lower == again.lower);
+  }
+}
+
+}  // namespace
+}  // namespace espalier::lsystem
