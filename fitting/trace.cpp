@@ -56,12 +56,12 @@ std::string trace_to_csv(const std::vector<TraceRow>& rows) {
       "evaluations,seconds,event,best,batch_best,batch_median,batch_worst,"
       "pixel_accuracy,iou,dice,tolerant_iou,outline_iou,gap_iou,truncated_distance,stage\n";
   for (const TraceRow& row : rows)
-    csv +=
-        fmt::format("{},{:.3f},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{}\n",
-                    row.evaluations, row.seconds, row.improved ? "improvement" : "batch", row.best,
-                    row.batch_best, row.batch_median, row.batch_worst, row.metrics.pixel_accuracy,
-                    row.metrics.iou, row.metrics.dice, row.metrics.tolerant_iou, row.metrics.outline_iou,
-                    row.metrics.gap_iou, row.metrics.truncated_distance, row.stage);
+    csv += fmt::format(
+        "{},{:.3f},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{}\n",
+        row.evaluations, row.seconds, row.improved ? "improvement" : "batch", row.best, row.batch_best,
+        row.batch_median, row.batch_worst, row.metrics.pixel_accuracy, row.metrics.iou, row.metrics.dice,
+        row.metrics.tolerant_iou, row.metrics.outline_iou, row.metrics.gap_iou,
+        row.metrics.truncated_distance, row.stage);
   return csv;
 }
 

@@ -9,8 +9,8 @@
 
 namespace espalier {
 
-/// Calls body(0) … body(count - 1), in no order, on `threads` threads (0: one a processor). Where some throw, the one with the lowest index is rethrown
-/// at the end.
+/// Calls body(0) … body(count - 1), in no order, on `threads` threads (0: one a processor). Where some throw,
+/// the one with the lowest index is rethrown at the end.
 template <typename Body>
 void parallel_for(std::size_t count, const Body& body, int threads = 0) {
   std::vector<std::exception_ptr> errors(count);

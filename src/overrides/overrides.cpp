@@ -71,9 +71,9 @@ void check_override(const Override& entry, const BranchPath& path, const std::st
 }
 
 void set_override(OverrideSet& set, const Override& entry) {
-  const auto place = std::lower_bound(
-      set.overrides.begin(), set.overrides.end(), entry,
-      [](const Override& a, const Override& b) { return a.quantity < b.quantity; });
+  const auto place =
+      std::lower_bound(set.overrides.begin(), set.overrides.end(), entry,
+                       [](const Override& a, const Override& b) { return a.quantity < b.quantity; });
   if (place != set.overrides.end() && place->quantity == entry.quantity)
     *place = entry;
   else

@@ -24,7 +24,7 @@ struct Override {
 
 /// What one node says, or several that share it.
 struct OverrideSet {
-  std::string shares;  ///< name of a shared set that comes first; empty: none
+  std::string shares;               ///< name of a shared set that comes first; empty: none
   std::vector<Override> overrides;  ///< by quantity, each once (set_override)
 };
 

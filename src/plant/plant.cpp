@@ -95,10 +95,9 @@ std::size_t memory_bytes(const Plant& plant) {
     return (... + (columns.capacity() * sizeof(columns.front())));
   };
   const auto& [stems, knots, leaves, leaf_shape, blossom_shape, tree_scale_m] = plant;
-  return bytes(stems.first_knot, stems.parent, stems.level, stems.path_key, stems.origin,
-               stems.child_index, knots.point_m, knots.handle_in_m,
-               knots.handle_out_m, knots.radius_m, leaves.position_m, leaves.axis, leaves.side,
-               leaves.length_m, leaves.width_m, leaves.kind);
+  return bytes(stems.first_knot, stems.parent, stems.level, stems.path_key, stems.origin, stems.child_index,
+               knots.point_m, knots.handle_in_m, knots.handle_out_m, knots.radius_m, leaves.position_m,
+               leaves.axis, leaves.side, leaves.length_m, leaves.width_m, leaves.kind);
 }
 
 Bounds bounds(const Plant& plant) {
