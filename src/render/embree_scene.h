@@ -18,7 +18,7 @@ namespace espalier {
 enum class SceneQuality { fast_build, fast_trace };
 
 /// What a ray hits: Embree's geomID.
-enum PlantPart : unsigned { kStemPart = 0, kLeafPart = 1, kBlossomPart = 2 };
+enum GeometryId : unsigned { kStemPart = 0, kLeafPart = 1, kBlossomPart = 2 };
 
 /// How closely a picture by `camera` needs stems to be followed: an eighth of a pixel where the plant is
 /// nearest.

@@ -253,7 +253,8 @@ TEST(Preset, AnUnknownModelListsTheKnownOnes) {
   const PresetFolder folder;
   const std::string file = folder.write("bad.toml", "model = \"oak\"\n");
   EXPECT_THAT(loading_error(file),
-              testing::StartsWith(file + ":1: key 'model': got model 'oak', expected one of: weber_penn"));
+              testing::StartsWith(
+                  file + ":1: key 'model': got model 'oak', expected an .lsys file or one of: weber_penn"));
 }
 
 TEST(Preset, AModelOtherThanTheExtendedOneIsRefused) {
