@@ -93,8 +93,8 @@ TEST(FitCommand, CtrlCWritesTheResultAndTheRunRepeatsByItsCount) {
   EXPECT_EQ(WEXITSTATUS(status), 0);
   const auto summary = nlohmann::json::parse(read_text_file(run / "summary.json"));
   EXPECT_EQ(summary["stopped_by"], "interrupted");
-  const std::string rounds = fmt::format(" --branch-rounds {}", summary["branch_rounds"].get<long>());
-  ASSERT_EQ(run_espalier(small_fit(folder / "by_count", summary["evaluations"]) + rounds).exit_code, 0);
+  const std::string rounds = "--branch-rounds " + summary["branch_rounds"].dump();
+  ASSERT_EQ(run_espalier(small_fit(folder / "by_count", summary["evaluations"], rounds)).exit_code, 0);
   EXPECT_EQ(read_text_file(folder / "by_count" / "best.toml"), read_text_file(run / "best.toml"));
   const std::string repeat =
       "fit --quiet --repeat '" + run.string() + "' --out '" + (folder / "again").string() + "'";
