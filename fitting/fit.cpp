@@ -12,6 +12,8 @@
 #include "fitting/plant_scorer.h"
 #include "fitting/record_task.h"
 #include "fitting/space_search.h"
+#include "fitting/stages/branch_tracing.h"
+#include "fitting/stages/picture_reading.h"
 #include "fitting/start_points.h"
 #include "models/models.h"
 
@@ -25,6 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kStartBatch = 8;  ///< start points scored between two looks at the clock
 constexpr std::size_t kMostStarts = 3;  ///< of the best, given to the optimiser
+constexpr int kTracedSize_px = 512;     ///< masks are at least this large where thin twigs are traced
 constexpr double kRefreshSeconds = 3;   ///< the directory is at most this old, unless writing it is slow
 constexpr double kRefreshShare = 0.02;  ///< of the time, at most, is spent writing the directory
 
@@ -122,6 +125,7 @@ class FitRun : public Observer {
   }
   bool search_time_is_over() const;
   void refine();
+  std::vector<Solution> refinement_starts(const Solution& searched);
   void go_on_from(const BranchRounds& reached);
   void note_round();
   void add_to_trace(const RoundRow& row);
@@ -168,7 +172,7 @@ bool FitRun::stop_requested() {
 /// Where refinement follows for as long as time lasts.
 bool FitRun::search_time_is_over() const {
   return record_.budget.branch_rounds == kWhileTimeLasts && will_refine() && state_.branches.lanes.empty() &&
-         seconds() >= kSearchShare * record_.budget.seconds;
+         seconds() >= search_share(state_.kind) * record_.budget.seconds;
 }
 
 void FitRun::on_scored(const ScoredBatch& batch) {
@@ -240,6 +244,7 @@ void FitRun::search_species(const SpeciesSpace& species, std::vector<StartPoint>
   const auto prepare = [&](ParameterValues& values) {
     prepare_start(model, record_.growth, target_height_m(record_), task_.plant_seeds.front(), values);
     if (!has_leaves(model.table(), start)) take_leaves(model.table(), values);
+    keep_in_ranges(model.table(), choice_, values);
     apply_fixed(model.table(), choice_, values);
   };
   const SpaceObjective objective(species, start, prepare, scorer_);
@@ -281,7 +286,7 @@ void FitRun::refine() {
   if (reached)
     go_on_from(*reached);
   else {
-    state_.branches = begin_branch_rounds(task_, start, scorer_.evaluations());
+    state_.branches = begin_branch_rounds(task_, refinement_starts(start), scorer_.evaluations());
     state_.branches.search_limit = record_.budget.evaluations;
     note_round();
   }
@@ -293,6 +298,15 @@ void FitRun::refine() {
     refine_round(task_, record_.seed, threads_, state_.branches);
     note_round();
   }
+}
+
+/// The best of the search; beside it, where the picture shows its branches, the tree traced along them.
+std::vector<Solution> FitRun::refinement_starts(const Solution& searched) {
+  std::vector<Solution> starts{searched};
+  if (state_.kind == kind_name(TreeKind::leafless))
+    starts.push_back(trace_branches(make_task_at(record_, kTracedSize_px, task_.model),
+                                    {.key = root_key(record_.seed)}, searched));
+  return starts;
 }
 
 /// The state that a run which was broken off had reached, and its rows of the trace.
@@ -318,6 +332,7 @@ void FitRun::note_round() {
 void FitRun::add_to_trace(const RoundRow& row) {
   const bool improved = row.score < state_.best.score;
   state_.best.score = row.score;
+  state_.best.values = state_.branches.best().values;
   state_.best_metrics = row.metrics;
   state_.trace.add_round(scorer_.evaluations() + row.steps, row.seconds, improved, row.score, row.metrics,
                          stage_);
@@ -367,9 +382,7 @@ FitResult fit(const FitRecord& given, const fs::path& directory, const FitOption
   const ParameterTable& table = task.model->table();
   const std::optional<SpeciesSpace> species = space_of(record, *task.model);
   check_searches(record, make_search_space(table, table.defaults(), record.search), species);
-  const std::vector<StartPoint> starts =
-      make_start_points(*task.model, record.start, choice_for(record, task), record.growth,
-                        target_height_m(record), task.plant_seeds.front());
+  const std::vector<StartPoint> starts = starts_for(record, task);
   begin_run_directory(directory, {.record = record, .task = task});
   return FitRun(record, task, directory, options).run(starts, species);
 }

@@ -29,9 +29,8 @@ struct FitBudget {
   long branch_rounds = 0;  ///< of the refinement that follows the search, at most; kWhileTimeLasts: no limit
 };
 
-/// Rounds of refinement until the seconds are over, of which the search then takes kSearchShare.
+/// Rounds of refinement until the seconds are over.
 inline constexpr long kWhileTimeLasts = -1;
-inline constexpr double kSearchShare = 0.4;
 
 struct FitRecord {
   std::string model = "weber_penn";

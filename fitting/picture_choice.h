@@ -1,18 +1,28 @@
-// What a picture says of the search for its tree: which parameters it holds fixed. "auto" reads the picture
-// (fitting/stages/picture_reading.h); what the user frees or fixes himself is left to him.
+// What a picture says of the search for its tree: which parameters it holds fixed or in ranges, and where it
+// starts. "auto" reads the picture (fitting/stages/picture_reading.h); what the user frees or fixes himself
+// is left to him.
 #pragma once
 #include <string>
 
 #include "fitting/fit_record.h"
 #include "fitting/fit_task.h"
+#include "fitting/start_points.h"
 
 namespace espalier {
 
 /// The record's kind of tree; where it is "auto", that of the first picture.
 std::string kind_of(const FitRecord& record, const FitTask& task);
 
-/// The record's choice, and what its kind adds: no leaves on a leafless tree; one trunk where the picture,
-/// read by "auto", shows one foot.
+/// The record's choice, and what its kind adds, unless that is "any": no leaves on a leafless tree, plausible
+/// ranges (fitting/stages/measured_start.h), one trunk where the picture shows one foot.
 SearchChoice choice_for(const FitRecord& record, const FitTask& task);
+
+/// The record's starts, thinned, as tall as the target, and, unless the kind is "any", to the measure of the
+/// picture.
+std::vector<StartPoint> starts_for(const FitRecord& record, const FitTask& task);
+
+/// Of the time, where refinement follows for as long as it lasts: less where the branches are seen and
+/// traced.
+double search_share(const std::string& kind);
 
 }  // namespace espalier

@@ -63,4 +63,11 @@ FitTask make_task(FitRecord& record, const Model* model) {
   return task;
 }
 
+FitTask make_task_at(const FitRecord& record, int size_px, const Model* model) {
+  FitRecord resized = record;
+  resized.target.size_px = size_px;
+  resized.target_hash.clear();
+  return make_task(resized, model);
+}
+
 }  // namespace espalier

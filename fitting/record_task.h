@@ -13,4 +13,7 @@ double target_height_m(const FitRecord& record);
 /// from those of the record's hash.
 FitTask make_task(FitRecord& record, const Model* model = nullptr);
 
+/// The same with masks of another size: more of a picture than a search looks at.
+FitTask make_task_at(const FitRecord& record, int size_px, const Model* model);
+
 }  // namespace espalier

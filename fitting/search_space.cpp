@@ -9,9 +9,7 @@ namespace espalier {
 
 namespace {
 
-struct Range {
-  double lower = 0, upper = 0;
-};
+using Range = SearchRange;
 
 /// True where `text` matches `pattern`, in which * stands for any letters and ? for one.
 bool matches(std::string_view pattern, std::string_view text) {
@@ -70,8 +68,11 @@ Mapping mapping_of(const ParameterInfo& row) {
   return whole ? Mapping::whole : Mapping::linear;
 }
 
-/// Where the search looks: the table's range, scaled, inside the valid values, widened to hold `start`.
-Range search_range(const ParameterInfo& row, double start, double metre_factor) {
+/// Where the search looks: the range of `choice`; else the table's, scaled, inside the valid values, widened
+/// to hold `start`.
+Range search_range(const ParameterInfo& row, const SearchChoice& choice, double start, double metre_factor) {
+  if (const auto given = choice.ranges.find(row.full_name()); given != choice.ranges.end())
+    return {std::max(given->second.lower, row.lower), std::min(given->second.upper, row.upper)};
   const double factor = row.unit == "m" ? metre_factor : 1;
   Range range{std::clamp(row.search_lower * factor, row.lower, row.upper),
               std::clamp(row.search_upper * factor, row.lower, row.upper)};
@@ -79,10 +80,10 @@ Range search_range(const ParameterInfo& row, double start, double metre_factor) 
   return {std::min(range.lower, start), std::max(range.upper, start)};
 }
 
-FreeParameter make_free(const ParameterTable& table, std::size_t row_index, double start,
-                        double metre_factor) {
+FreeParameter make_free(const ParameterTable& table, std::size_t row_index, const SearchChoice& choice,
+                        double start, double metre_factor) {
   const ParameterInfo& row = table.rows[row_index];
-  const Range range = search_range(row, start, metre_factor);
+  const Range range = search_range(row, choice, start, metre_factor);
   if (row.scale == Scale::logarithmic && !(range.lower > 0))
     throw InternalError(fmt::format("{} is searched logarithmically from {}", row.full_name(), range.lower));
   return {.row = row_index,
@@ -156,6 +157,15 @@ void apply_fixed(const ParameterTable& table, const SearchChoice& choice, Parame
     }
 }
 
+void keep_in_ranges(const ParameterTable& table, const SearchChoice& choice, ParameterValues& values) {
+  for (const auto& [name, range] : choice.ranges)
+    if (const auto row = table.find(name)) {
+      const ParameterInfo& info = table.rows[*row];
+      values[*row] =
+          std::clamp(values[*row], std::max(range.lower, info.lower), std::min(range.upper, info.upper));
+    }
+}
+
 SearchSpace make_search_space(const ParameterTable& table, const ParameterValues& start,
                               const SearchChoice& choice, double metre_factor) {
   ESPALIER_CHECK_EQ(start.size(), table.rows.size());
@@ -163,7 +173,7 @@ SearchSpace make_search_space(const ParameterTable& table, const ParameterValues
   apply_fixed(table, choice, space.base);
   const std::vector<bool> chosen = chosen_rows(table, choice);
   for (std::size_t row = 0; row < chosen.size(); ++row)
-    if (chosen[row]) space.free.push_back(make_free(table, row, start[row], metre_factor));
+    if (chosen[row]) space.free.push_back(make_free(table, row, choice, start[row], metre_factor));
   if (space.free.empty()) throw_input_error("--fix: got every free parameter, expected one left to search");
   return space;
 }

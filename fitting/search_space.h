@@ -43,10 +43,15 @@ struct SearchSpace {
   std::vector<double> encode(std::span<const double> values) const;
 };
 
-/// What the user says of the space.
+struct SearchRange {
+  double lower = 0, upper = 0;
+};
+
+/// What the user, or the picture, says of the space.
 struct SearchChoice {
-  std::vector<std::string> free;        ///< names or patterns; none: the rows free by default
-  std::map<std::string, double> fixed;  ///< full names or patterns, and their values
+  std::vector<std::string> free;              ///< names or patterns; none: the rows free by default
+  std::map<std::string, double> fixed;        ///< full names or patterns, and their values
+  std::map<std::string, SearchRange> ranges;  ///< full names; neither starts nor the search leave them
 };
 
 /// Rows of the table that a pattern names: "g_scale", "curve_v[1]", "curve_v" (all levels), with * and ?
@@ -58,9 +63,12 @@ std::vector<std::size_t> rows_matching(const ParameterTable& table, const std::s
 /// Sets the fixed values in `values`. Throws InputError for unknown names and invalid values.
 void apply_fixed(const ParameterTable& table, const SearchChoice& choice, ParameterValues& values);
 
+/// Moves values that lie outside of the ranges to their ends; names that the table does not have are skipped.
+void keep_in_ranges(const ParameterTable& table, const SearchChoice& choice, ParameterValues& values);
+
 /// The space around `start` (whose free values widen the ranges that do not hold them). Ranges of rows in
-/// metres are multiplied by `metre_factor` first. What is fixed is not free. Throws InputError for
-/// unknown names, or where nothing is left to search.
+/// metres are multiplied by `metre_factor` first, and cut to the ranges of `choice`. What is fixed is not
+/// free. Throws InputError for unknown names, or where nothing is left to search.
 SearchSpace make_search_space(const ParameterTable& table, const ParameterValues& start,
                               const SearchChoice& choice, double metre_factor = 1);
 

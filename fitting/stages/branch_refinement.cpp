@@ -6,6 +6,8 @@
 #include <numeric>
 
 #include "fitting/optimizers/draws.h"
+#include "fitting/stages/branch_offsets.h"
+#include "fitting/stages/reach_limit.h"
 #include "overrides/change_graph.h"
 
 namespace espalier {
@@ -14,80 +16,18 @@ namespace {
 
 using Masks = std::vector<Mask>;  ///< one a view
 
-constexpr std::size_t kDimensions = 6;
-using Offsets = std::array<double, kDimensions>;
-
-struct Dimension {
-  Quantity quantity;
-  Relation relation;
-  double range;  ///< of the offset at coordinate ±1; of a factor: its logarithm
-};
-
-/// How far a branch may go from what the model gives it.
-constexpr std::array<Dimension, kDimensions> kSearched{{
-    {Quantity::length, Relation::factor, 1.1},
-    {Quantity::down_angle, Relation::offset, 70},
-    {Quantity::rotation, Relation::offset, 180},
-    {Quantity::curvature, Relation::offset, 120},
-    {Quantity::position, Relation::offset, 0.3},
-    {Quantity::radius, Relation::factor, 0.7},
-}};
-
-// Of the evolution strategy: its step, in coordinates of kSearched, and by how much a success or a failure
-// changes it [Rechenberg's rule of one success in five: 1.5 · 0.92^4 is about 1].
+// Of the evolution strategy: its step, in coordinates of kBranchDimensions, and by how much a success or a
+// failure changes it [Rechenberg's rule of one success in five: 1.5 · 0.92^4 is about 1].
 constexpr double kFirstSigma = 0.15, kWidest = 0.5, kNarrowest = 0.01, kWiden = 1.5, kNarrow = 0.92;
 
-struct Branch {
-  BranchPath path;
-  Offsets at{};
-  std::uint64_t seed = 0;
-  bool removed = false;
+struct Branch : BranchOffsets {
   double sigma = kFirstSigma;
   Masks masks;
+  float too_far_m = 0;  ///< it reaches further than is plausible
 };
 
-bool is_removed(const OverrideNode& node) {
-  return std::any_of(node.set.overrides.begin(), node.set.overrides.end(), [](const Override& entry) {
-    return entry.quantity == Quantity::removed && entry.number != 0;
-  });
-}
-
-/// Sets what differs from the model, and takes out what no longer does.
-void set_or_drop(OverrideSet& set, const Override& entry, bool differs) {
-  if (differs) return set_override(set, entry);
-  std::erase_if(set.overrides, [&](const Override& other) { return other.quantity == entry.quantity; });
-}
-
-void write_overrides(const Branch& branch, Overrides& overrides) {
-  OverrideSet& set = overrides.at(branch.path).set;
-  for (std::size_t i = 0; i < kDimensions; ++i) {
-    const Dimension& d = kSearched[i];
-    if (d.quantity == Quantity::position && branch.path.size() == 1) continue;
-    const double x = branch.at[i] * d.range;
-    set_or_drop(set, {d.quantity, d.relation, d.relation == Relation::factor ? std::exp(x) : x, true},
-                x != 0);
-  }
-  set_or_drop(set, {Quantity::seed, Relation::value, static_cast<double>(branch.seed), true},
-              branch.seed != 0);
-  set_or_drop(set, {Quantity::removed, Relation::value, 1, true}, branch.removed);
-}
-
-void read_override(const Override& entry, Branch& branch) {
-  if (entry.quantity == Quantity::seed) branch.seed = static_cast<std::uint64_t>(entry.number);
-  for (std::size_t i = 0; i < kDimensions; ++i) {
-    if (kSearched[i].quantity != entry.quantity || kSearched[i].relation != entry.relation) continue;
-    const bool is_factor = entry.relation == Relation::factor;
-    branch.at[i] = (is_factor ? std::log(entry.number) : entry.number) / kSearched[i].range;
-  }
-}
-
 Branch read_branch(const BranchPath& path, const Overrides& overrides) {
-  Branch branch{.path = path};
-  const OverrideNode* node = overrides.find(path);
-  if (!node) return branch;
-  branch.removed = is_removed(*node);
-  for (const Override& entry : node->set.overrides) read_override(entry, branch);
-  return branch;
+  return {read_offsets(path, overrides), kFirstSigma, {}, 0};
 }
 
 /// Draws plants and parts of them.
@@ -133,7 +73,12 @@ void join(Masks& all, const Masks& more) {
 class Refinement {
  public:
   Refinement(const FitTask& task, const RefinementSettings& settings, Solution& solution)
-      : task_(task), settings_(settings), solution_(solution), drawer_(task), draws_(settings.key) {
+      : task_(task),
+        settings_(settings),
+        solution_(solution),
+        drawer_(task),
+        reach_limit_(task),
+        draws_(settings.key) {
     find_branches();
   }
 
@@ -171,7 +116,7 @@ class Refinement {
       if (path.size() < length) above.push_back(path);
     }
     for (const OverrideNode& node : solution_.overrides.nodes)
-      if (node.path.size() == length && is_removed(node))
+      if (node.path.size() == length && removes(node))
         branches_.push_back(read_branch(node.path, solution_.overrides));
     draw_all(above);
   }
@@ -185,7 +130,7 @@ class Refinement {
       join(fixed_, masks);
     }
     for (Branch& branch : branches_) {
-      Solution one = only(branch);
+      Solution one = only(branch.path, solution_);
       draw(branch, one);
     }
   }
@@ -193,20 +138,9 @@ class Refinement {
   /// The branch alone, as it is now. `one` is the tree as far as it concerns the branch.
   void draw(Branch& branch, Solution& one) {
     const PlantPart part{branch.path};
-    write_overrides(branch, one.overrides);
+    write_offsets(branch, one.overrides);
     drawer_.draw(one, &part, branch.masks);
-  }
-
-  /// What the branch's growth depends on: its own node, those above and those below.
-  Solution only(const Branch& branch) const {
-    Solution one{solution_.values, solution_.plant_seed, {}, 1};
-    for (const OverrideNode& node : solution_.overrides.nodes) {
-      const std::size_t shared = std::min(node.path.size(), branch.path.size());
-      if (std::equal(node.path.begin(), node.path.begin() + static_cast<std::ptrdiff_t>(shared),
-                     branch.path.begin()))
-        one.overrides.nodes.push_back(node);
-    }
-    return one;
+    branch.too_far_m = reach_limit_.excess_m(drawer_.plant());
   }
 
   Masks rest_of(const Branch& branch) const {
@@ -226,6 +160,8 @@ class Refinement {
     Branch child = branch;
     if (draws_.chance(branch.removed ? 0.3 : 0.04)) {
       child.removed = !child.removed;
+      if (child.removed) return child;
+      for (std::size_t i = 0; i < child.at.size(); ++i) child.at[i] = clamped(i, 0.5 * draws_.normal());
       return child;
     }
     if (draws_.chance(0.08)) {
@@ -233,20 +169,20 @@ class Refinement {
       return child;
     }
     const bool all = draws_.chance(0.3);
-    for (double& x : child.at)
-      if (all || draws_.chance(0.4)) x = std::clamp(x + child.sigma * draws_.normal(), -1.0, 1.0);
+    for (std::size_t i = 0; i < child.at.size(); ++i)
+      if (all || draws_.chance(0.4)) child.at[i] = clamped(i, child.at[i] + child.sigma * draws_.normal());
     return child;
   }
 
   int visit(Branch& branch) {
     const Masks rest = rest_of(branch);
-    Solution one = only(branch);
+    Solution one = only(branch.path, solution_);
     double best = score(rest, branch);
     for (int step = 0; step < settings_.steps_per_visit; ++step) {
       Branch candidate = mutated(branch);
       draw(candidate, one);
       const double value = score(rest, candidate);
-      if (value <= best) {
+      if (value <= best && candidate.too_far_m <= branch.too_far_m) {
         const double sigma = candidate.sigma * (value < best ? kWiden : 1);
         best = value;
         branch = std::move(candidate);
@@ -260,7 +196,7 @@ class Refinement {
   }
 
   void finish() {
-    for (const Branch& branch : branches_) write_overrides(branch, solution_.overrides);
+    for (const Branch& branch : branches_) write_offsets(branch, solution_.overrides);
     std::erase_if(solution_.overrides.nodes, [](const OverrideNode& node) {
       return node.set.overrides.empty() && node.set.shares.empty();
     });
@@ -273,6 +209,7 @@ class Refinement {
   const RefinementSettings& settings_;
   Solution& solution_;
   Drawer drawer_;
+  ReachLimit reach_limit_;
   Draws draws_;
   std::vector<Branch> branches_;
   Masks fixed_, joined_;

@@ -50,10 +50,13 @@ const Solution& BranchRounds::best() const {
                            [](const Solution& a, const Solution& b) { return a.score < b.score; });
 }
 
-BranchRounds begin_branch_rounds(const FitTask& task, const Solution& start, long search_evaluations) {
+BranchRounds begin_branch_rounds(const FitTask& task, const std::vector<Solution>& starts,
+                                 long search_evaluations) {
   BranchRounds state{.search_evaluations = search_evaluations};
-  state.lanes.assign(kLanes, start);
-  for (Solution& lane : state.lanes) lane.score = score_of(task, lane);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    state.lanes.push_back(starts[lane % starts.size()]);
+    state.lanes.back().score = score_of(task, state.lanes.back());
+  }
   return state;
 }
 
@@ -68,6 +71,9 @@ void refine_round(const FitTask& task, Seed seed, int threads, BranchRounds& sta
   parallel_for(state.lanes.size(), refine_lane, threads);
   for (const long made : steps) state.steps += made;
   ++state.rounds;
+  if (state.rounds % static_cast<long>(kCycle.size()) != 0) return;
+  const Solution best = state.best();
+  for (Solution& lane : state.lanes) lane = best;
 }
 
 std::string branch_rounds_to_json(const BranchRounds& state, const std::string& model) {

@@ -30,10 +30,11 @@ struct BranchRounds {
   const Solution& best() const;
 };
 
-/// Lanes that all begin with `start`.
-BranchRounds begin_branch_rounds(const FitTask& task, const Solution& start, long search_evaluations);
+/// Lanes that begin with the starts in turn.
+BranchRounds begin_branch_rounds(const FitTask& task, const std::vector<Solution>& starts,
+                                 long search_evaluations);
 
-/// Makes one round on all lanes.
+/// Makes one round on all lanes; after each round of all orders, all go on from the best.
 void refine_round(const FitTask& task, Seed seed, int threads, BranchRounds& state);
 
 /// The state as text, and back. Throws InputError naming `source` where the text is no such state.

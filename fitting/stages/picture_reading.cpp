@@ -89,6 +89,7 @@ PictureReading read_picture(const Mask& mask) {
   const double height = box.height();
   const int trunk_px = extent_px(mask, foot_row(box));
   PictureReading reading;
+  reading.height_px = box.height();
   reading.trunk_width = trunk_px / height;
   reading.crown_base = bare_height_px(mask, box, trunk_px) / height;
   reading.crown_width = box.width() / height;
@@ -102,6 +103,12 @@ PictureReading read_picture(const Mask& mask) {
 std::string kind_name(TreeKind kind) {
   constexpr const char* kNames[] = {"leafy", "leafless", "palm"};
   return kNames[static_cast<std::size_t>(kind)];
+}
+
+TreeKind kind_by_name(const std::string& name) {
+  for (const TreeKind kind : {TreeKind::leafless, TreeKind::palm})
+    if (kind_name(kind) == name) return kind;
+  return TreeKind::leafy;
 }
 
 }  // namespace espalier

@@ -1,5 +1,5 @@
-// Stage (a): what a mask says of its tree before anything is grown. All measures are relative to the tree's
-// height, so that they hold at any resolution.
+// Stage (a): what a mask says of its tree before anything is grown. All measures but one are relative to
+// the tree's height, so that they hold at any resolution.
 #pragma once
 #include <string>
 
@@ -11,6 +11,7 @@ enum class TreeKind { leafy, leafless, palm };
 
 struct PictureReading {
   TreeKind kind = TreeKind::leafy;
+  int height_px = 0;
   double trunk_width = 0;      ///< at the foot
   double crown_base = 0;       ///< height at which the outline becomes wider than a trunk
   double crown_width = 0;      ///< of the whole tree
@@ -24,5 +25,7 @@ PictureReading read_picture(const Mask& mask);
 
 /// "leafy", "leafless", "palm".
 std::string kind_name(TreeKind kind);
+/// The inverse; leafy for any other name.
+TreeKind kind_by_name(const std::string& name);
 
 }  // namespace espalier

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "environment/leaves_inside.h"
 #include "weber_penn/changed_children.h"
 #include "weber_penn/child_stem.h"
 #include "weber_penn/children.h"
@@ -350,7 +351,9 @@ GrowthResult grow_tree(const WeberPennParameters& parameters, Seed seed, const G
   plant.blossom_shape = static_cast<int>(parameters.blossom_shape);
   plant.stems.first_knot.push_back(0);
   static thread_local GrowthMemory memory;
-  return Growth(parameters, settings, lanes, memory, plant).run(seed);
+  const GrowthResult result = Growth(parameters, settings, lanes, memory, plant).run(seed);
+  if (settings.train && settings.prune_to) keep_leaves_inside(*settings.prune_to, plant.leaves);
+  return result;
 }
 
 }  // namespace espalier

@@ -27,7 +27,7 @@ struct SmallTask {
     const Camera camera = frame_base({0, 0, 0}, {}, 16.f / 64, 64, 64, 62);
     Mask mask;
     make_scanline_renderer()->draw(plant, camera, mask);
-    task.views = {{camera, PreparedTarget(mask)}};
+    task.views = {{camera, PreparedTarget(mask), camera.metres_per_px}};
   }
 
   void set(const char* name, double value) { preset.values[table().index_of(name)] = value; }
@@ -88,7 +88,7 @@ bool same(const BranchRounds& a, const BranchRounds& b) {
 
 TEST(BranchRounds, AreTheSameForAnyNumberOfThreads) {
   const SmallTask small;
-  BranchRounds one = begin_branch_rounds(small.task, small.start(), 10), three = one;
+  BranchRounds one = begin_branch_rounds(small.task, {small.start()}, 10), three = one;
   for (int round = 0; round < 2; ++round) {
     refine_round(small.task, 5, 1, one);
     refine_round(small.task, 5, 3, three);
@@ -98,7 +98,7 @@ TEST(BranchRounds, AreTheSameForAnyNumberOfThreads) {
 
 TEST(BranchRounds, GoOnFromWhatIsWrittenWithTheSameBits) {
   const SmallTask small;
-  BranchRounds unbroken = begin_branch_rounds(small.task, small.start(), 10);
+  BranchRounds unbroken = begin_branch_rounds(small.task, {small.start()}, 10);
   refine_round(small.task, 5, 1, unbroken);
   refine_round(small.task, 5, 1, unbroken);
   BranchRounds resumed =

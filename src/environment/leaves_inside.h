@@ -1,0 +1,12 @@
+// Leaves kept inside of a volume: what training and pruning to a picture's outline do after stems have grown.
+#pragma once
+#include "environment/volume.h"
+#include "plant/plant.h"
+
+namespace espalier {
+
+/// Makes leaves that reach out of the volume smaller, by no more than half; those that still do are taken
+/// away. The order of those that stay is kept.
+void keep_leaves_inside(const Volume& volume, Leaves& leaves);
+
+}  // namespace espalier
