@@ -26,18 +26,24 @@ double over_budget_penalty(double factor) { return 1 + std::log10(std::clamp(fac
 PlantScorer::PlantScorer(const FitTask& task, int threads)
     : task_(task), workers_(static_cast<std::size_t>(std::max(threads, 1))) {}
 
+void PlantScorer::prepare(Worker& worker) const {
+  worker.renderer = task_.make_renderer();
+  worker.masks.resize(task_.views.size());
+  for (std::size_t i = 0; i < task_.views.size(); ++i)
+    worker.drawn_views.push_back({&task_.views[i].camera, &worker.masks[i]});
+}
+
 double PlantScorer::score_one(const ParameterValues& values, Seed seed, Worker& worker) const {
   const double excess = estimated_excess(task_, values);
   if (!(excess <= 1)) return over_budget_penalty(std::isnan(excess) ? 1e300 : excess);
-  if (!worker.renderer) worker.renderer = task_.make_renderer();
+  if (!worker.renderer) prepare(worker);
   worker.plant.clear();
-  const GrowthResult growth = task_.model->generate(values, seed, task_.growth, worker.plant);
+  const GrowthResult growth = grow_and_draw(*task_.model, values, seed, task_.growth, *worker.renderer,
+                                            worker.drawn_views, worker.plant);
   if (!growth.grown) return over_budget_penalty(growth.over_budget_factor);
   double sum = 0;
-  for (const TargetView& view : task_.views) {
-    worker.renderer->draw(worker.plant, view.camera, worker.mask);
-    sum += dissimilarity(task_.objective, worker.mask, view.target);
-  }
+  for (std::size_t i = 0; i < task_.views.size(); ++i)
+    sum += dissimilarity(task_.objective, worker.masks[i], task_.views[i].target);
   return sum / static_cast<double>(task_.views.size());
 }
 

@@ -7,6 +7,7 @@
 
 #include "fitting/fit_task.h"
 #include "fitting/scorer.h"
+#include "render/grow_and_draw.h"
 
 namespace espalier {
 
@@ -21,8 +22,10 @@ class PlantScorer : public Scorer {
   struct Worker {
     std::unique_ptr<SilhouetteRenderer> renderer;
     Plant plant;
-    Mask mask;
+    std::vector<Mask> masks;  ///< of each view
+    std::vector<SilhouetteView> drawn_views;
   };
+  void prepare(Worker& worker) const;
   double score_one(const ParameterValues& values, Seed seed, Worker& worker) const;
 
   const FitTask& task_;

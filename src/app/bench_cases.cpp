@@ -2,12 +2,13 @@
 
 #include <omp.h>
 
+#include <array>
 #include <chrono>
 
 #include "image/compare.h"
 #include "models/models.h"
 #include "models/preset.h"
-#include "render/silhouette.h"
+#include "render/grow_and_draw.h"
 
 namespace espalier {
 
@@ -39,24 +40,51 @@ struct Setting {
   }
 };
 
+/// The scan-line renderer, which tells how long it drew, also while the plant grew, and how many leaves.
+class TimedRenderer : public SilhouetteRenderer, private SilhouetteParts {
+ public:
+  void draw(const Plant& plant, const Camera& camera, Mask& mask) override {
+    mask.reset(camera.width_px, camera.height_px);
+    add_plant(plant, camera, mask);
+  }
+  SilhouetteParts* parts() override { return this; }
+
+  double seconds = 0, leaves = 0;
+
+ private:
+  void add_leaves(const LeafColumns& some, const Camera& camera, Mask& mask) override {
+    const auto began = Clock::now();
+    renderer_->parts()->add_leaves(some, camera, mask);
+    seconds += seconds_between(began, Clock::now());
+    leaves += static_cast<double>(some.count);
+  }
+  void add_plant(const Plant& plant, const Camera& camera, Mask& mask) override {
+    const auto began = Clock::now();
+    renderer_->parts()->add_plant(plant, camera, mask);
+    seconds += seconds_between(began, Clock::now());
+    leaves += static_cast<double>(plant.leaves.size());
+  }
+
+  std::unique_ptr<SilhouetteRenderer> renderer_ = make_scanline_renderer();
+};
+
 /// One thread's evaluations.
 class Evaluator {
  public:
-  explicit Evaluator(const Setting& setting) : setting_(setting), renderer_(make_scanline_renderer()) {}
+  explicit Evaluator(const Setting& setting) : setting_(setting) {}
 
   void evaluate(Seed seed) {
     const auto began = Clock::now();
-    setting_.model.generate(setting_.preset.values, seed, {}, plant_);
-    const auto grown = Clock::now();
-    renderer_->draw(plant_, setting_.camera, mask_);
+    renderer_.seconds = renderer_.leaves = 0;
+    grow_and_draw(setting_.model, setting_.preset.values, seed, {}, renderer_, views_, plant_);
     const auto drawn = Clock::now();
     fitness_ += iou(mask_, setting_.target);
     const auto compared = Clock::now();
-    grow_s += seconds_between(began, grown);
-    draw_s += seconds_between(grown, drawn);
+    grow_s += seconds_between(began, drawn) - renderer_.seconds;
+    draw_s += renderer_.seconds;
     compare_s += seconds_between(drawn, compared);
     stems += static_cast<double>(plant_.stems.size());
-    leaves += static_cast<double>(plant_.leaves.size());
+    leaves += renderer_.leaves;
     ++count;
   }
 
@@ -78,9 +106,10 @@ class Evaluator {
 
  private:
   const Setting& setting_;
-  std::unique_ptr<SilhouetteRenderer> renderer_;
+  TimedRenderer renderer_;
   Plant plant_;
   Mask mask_;
+  std::array<SilhouetteView, 1> views_{{{&setting_.camera, &mask_}}};
   double fitness_ = 0;  ///< keeps the comparison from being left out
 };
 

@@ -6,6 +6,7 @@
 #include "core/parameter_table.h"
 #include "core/random.h"
 #include "plant/branch_path.h"
+#include "plant/leaf_sink.h"
 #include "plant/plant.h"
 
 namespace espalier {
@@ -31,7 +32,8 @@ struct GrowthSettings {
   bool train = false;                    ///< bend stems along prune_to's border before they are cut
   const ChangeGraph* changes = nullptr;  ///< overrides of single branches; not owned
   const PlantPart* only_part =
-      nullptr;  ///< grow this branch, in its place, and leave out the rest; not owned
+      nullptr;                    ///< grow this branch, in its place, and leave out the rest; not owned
+  LeafSink* leaf_sink = nullptr;  ///< gets leaves that the plant then lacks: all, some or none; not owned
 };
 
 /// How large the plant of these values is expected to get, without growing it.

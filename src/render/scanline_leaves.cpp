@@ -34,16 +34,42 @@ Vector along(const Vector3& v, Vec3 direction) {
                  hn::Mul(v.z, hn::Set(d, direction.z)));
 }
 
-/// Where a vector's numbers begin in the arrays of leaves.
-struct LeafRows {
-  const Vec3 *position_m, *axis, *side;
-  const float *length_m, *width_m;
-  const LeafKind* kind;
+/// A vector of leaves in the world; some lanes may hold none.
+struct PlacedLeaves {
+  Vector3 position_m, axis, side;
+  Vector length_m, width_m;
+  hn::Mask<Integers> is_leaf;
 };
 
-LeafRows rows_from(const Leaves& leaves, std::size_t first) {
-  return {&leaves.position_m[first], &leaves.axis[first],    &leaves.side[first],
-          &leaves.length_m[first],   &leaves.width_m[first], &leaves.kind[first]};
+hn::Mask<Integers> are_leaves(const LeafKind* kind) {
+  static_assert(LeafKind::leaf == LeafKind{0});
+  const Integers di;
+  const hn::Rebind<std::uint8_t, Integers> d8;
+  const auto kinds = hn::PromoteTo(di, hn::LoadU(d8, reinterpret_cast<const std::uint8_t*>(kind)));
+  return hn::Eq(kinds, hn::Zero(di));
+}
+
+PlacedLeaves leaves_from(const Leaves& leaves, std::size_t first) {
+  const Floats d;
+  return {load3(&leaves.position_m[first]),     load3(&leaves.axis[first]),
+          load3(&leaves.side[first]),           hn::LoadU(d, &leaves.length_m[first]),
+          hn::LoadU(d, &leaves.width_m[first]), are_leaves(&leaves.kind[first])};
+}
+
+PlacedLeaves leaves_from(const LeafColumns& leaves, std::size_t first) {
+  const Floats d;
+  const Integers di;
+  const auto load = [&](const LeafColumns::Columns3& columns) {
+    return Vector3{hn::LoadU(d, columns.x + first), hn::LoadU(d, columns.y + first),
+                   hn::LoadU(d, columns.z + first)};
+  };
+  const auto left = hn::Set(di, static_cast<std::int32_t>(leaves.count - first));
+  return {load(leaves.position_m),
+          load(leaves.axis),
+          load(leaves.side),
+          hn::LoadU(d, leaves.length_m + first),
+          hn::LoadU(d, leaves.width_m + first),
+          hn::Lt(counted_from(0), left)};
 }
 
 /// A copy of the last leaves, for a vector that would read beyond the arrays. Leaves of size 0 fill it up.
@@ -62,7 +88,11 @@ struct LastRows {
       kind[i] = leaves.kind[first + i];
     }
   }
-  LeafRows rows() const { return {position_m, axis, side, length_m, width_m, kind}; }
+  PlacedLeaves leaves() const {
+    const Floats d;
+    return {load3(position_m),      load3(axis),           load3(side),
+            hn::LoadU(d, length_m), hn::LoadU(d, width_m), are_leaves(kind)};
+  }
 };
 
 /// What turns leaves into pixels.
@@ -79,20 +109,17 @@ class LeafProjection {
 
   /// Inverts (column, row) = base + x·side + y·axis for a vector of leaves. A leaf seen on edge gets
   /// coordinates that are not numbers, and blossom an empty rectangle.
-  HWY_INLINE LeafLanes lanes(const LeafRows& leaves) const {
-    const Floats d;
-    const Vector3 position = load3(leaves.position_m), axis = load3(leaves.axis), side = load3(leaves.side);
-    const Vector length_m = hn::LoadU(d, leaves.length_m), width_m = hn::LoadU(d, leaves.width_m);
-    const Vector base_x = hn::Add(along(position, right_), set(x_)),
-                 base_y = hn::Add(along(position, down_), set(y_));
-    const Vector axis_x = hn::Mul(along(axis, right_), length_m),
-                 axis_y = hn::Mul(along(axis, down_), length_m);
-    const Vector side_x = hn::Mul(along(side, right_), width_m),
-                 side_y = hn::Mul(along(side, down_), width_m);
+  HWY_INLINE LeafLanes lanes(const PlacedLeaves& leaves) const {
+    const Vector base_x = hn::Add(along(leaves.position_m, right_), set(x_)),
+                 base_y = hn::Add(along(leaves.position_m, down_), set(y_));
+    const Vector axis_x = hn::Mul(along(leaves.axis, right_), leaves.length_m),
+                 axis_y = hn::Mul(along(leaves.axis, down_), leaves.length_m);
+    const Vector side_x = hn::Mul(along(leaves.side, right_), leaves.width_m),
+                 side_y = hn::Mul(along(leaves.side, down_), leaves.width_m);
     const Vector inverse = hn::Div(set(1), hn::Sub(hn::Mul(side_x, axis_y), hn::Mul(side_y, axis_x)));
     LeafLanes lanes;
     lanes.columns = run(base_x, axis_x, side_x, width_px_);
-    lanes.rows = only_leaves(run(base_y, axis_y, side_y, height_px_), leaves.kind);
+    lanes.rows = only_leaves(run(base_y, axis_y, side_y, height_px_), leaves.is_leaf);
     const Vector column = from_first(lanes.columns, base_x), row = from_first(lanes.rows, base_y);
     lanes.x = linear(hn::Mul(axis_y, inverse), hn::Neg(hn::Mul(axis_x, inverse)), column, row);
     lanes.y = linear(hn::Neg(hn::Mul(side_y, inverse)), hn::Mul(side_x, inverse), column, row);
@@ -107,12 +134,8 @@ class LeafProjection {
                      hn::Add(hn::Add(base, hn::Max(axis, zero)), reach), size);
   }
 
-  static RunLanes only_leaves(const RunLanes& rows, const LeafKind* kind) {
-    static_assert(LeafKind::leaf == LeafKind{0});
-    const Integers di;
-    const hn::Rebind<std::uint8_t, Integers> d8;
-    const auto kinds = hn::PromoteTo(di, hn::LoadU(d8, reinterpret_cast<const std::uint8_t*>(kind)));
-    return {rows.begin, hn::IfThenElse(hn::Eq(kinds, hn::Zero(di)), rows.end, rows.begin)};
+  static RunLanes only_leaves(const RunLanes& rows, hn::Mask<Integers> is_leaf) {
+    return {rows.begin, hn::IfThenElse(is_leaf, rows.end, rows.begin)};
   }
 
   /// From the leaf's base to the centre of its first pixel.
@@ -152,24 +175,49 @@ void draw_large(const LeafLanes& leaves, const LeafEdges& edges, Mask& mask) {
   }
 }
 
-void draw_orthographic(const Plant& plant, const Camera& camera, Mask& mask) {
-  const Integers di;
-  const Leaves& leaves = plant.leaves;
-  const LeafHalf& half = leaf_half(plant.leaf_shape);
-  const LeafEdges edges(half);
-  const LeafProjection projection(camera, half.half_width, mask);
-  LeafTiles tiles(edges, mask);
-  const std::size_t lanes = hn::Lanes(Floats());
-  for (std::size_t first = 0; first < leaves.size(); first += lanes) {
-    const LeafLanes some = first + lanes <= leaves.size() ? projection.lanes(rows_from(leaves, first))
-                                                          : projection.lanes(LastRows(leaves, first).rows());
-    tiles.add(some);
+/// Draws vectors of leaves as they come.
+class LeafDrawing {
+ public:
+  LeafDrawing(int shape, const Camera& camera, Mask& mask)
+      : edges_(leaf_half(shape)),
+        projection_(camera, leaf_half(shape).half_width, mask),
+        tiles_(edges_, mask),
+        mask_(mask) {}
+
+  HWY_INLINE void add(const PlacedLeaves& leaves) {
+    const Integers di;
+    const LeafLanes some = projection_.lanes(leaves);
+    tiles_.add(some);
     const auto width = hn::Sub(some.columns.end, some.columns.begin),
                height = hn::Sub(some.rows.end, some.rows.begin);
     if (!hn::AllFalse(di, hn::Gt(hn::Max(width, height), hn::Set(di, LeafTiles::kWidestPx))))
-      draw_large(some, edges, mask);
+      draw_large(some, edges_, mask_);
   }
-  tiles.draw();
+
+  void finish() { tiles_.draw(); }
+
+ private:
+  LeafEdges edges_;
+  LeafProjection projection_;
+  LeafTiles tiles_;
+  Mask& mask_;
+};
+
+void draw_orthographic(const Plant& plant, const Camera& camera, Mask& mask) {
+  const Leaves& leaves = plant.leaves;
+  LeafDrawing drawing(plant.leaf_shape, camera, mask);
+  const std::size_t lanes = hn::Lanes(Floats());
+  for (std::size_t first = 0; first < leaves.size(); first += lanes)
+    drawing.add(first + lanes <= leaves.size() ? leaves_from(leaves, first)
+                                               : LastRows(leaves, first).leaves());
+  drawing.finish();
+}
+
+void draw_columns(const LeafColumns& leaves, const Camera& camera, Mask& mask) {
+  LeafDrawing drawing(leaves.shape, camera, mask);
+  for (std::size_t first = 0; first < leaves.count; first += hn::Lanes(Floats()))
+    drawing.add(leaves_from(leaves, first));
+  drawing.finish();
 }
 
 /// v·(direction of the ray through a pixel), which is linear in its column and row, counted from `first`.
@@ -238,6 +286,7 @@ HWY_AFTER_NAMESPACE();
 namespace espalier {
 
 HWY_EXPORT(draw_orthographic);
+HWY_EXPORT(draw_columns);
 HWY_EXPORT(draw_perspective);
 
 void draw_leaves(const Plant& plant, const Camera& camera, Mask& mask) {
@@ -245,6 +294,10 @@ void draw_leaves(const Plant& plant, const Camera& camera, Mask& mask) {
     HWY_DYNAMIC_DISPATCH(draw_orthographic)(plant, camera, mask);
   else
     HWY_DYNAMIC_DISPATCH(draw_perspective)(plant, camera, mask);
+}
+
+void draw_leaves(const LeafColumns& leaves, const Camera& camera, Mask& mask) {
+  HWY_DYNAMIC_DISPATCH(draw_columns)(leaves, camera, mask);
 }
 
 }  // namespace espalier

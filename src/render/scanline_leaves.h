@@ -2,6 +2,7 @@
 // its box. Pixels. Runs on the best vector instructions of the machine, with the same bits on all.
 #pragma once
 #include "image/mask.h"
+#include "plant/leaf_sink.h"
 #include "plant/plant.h"
 #include "render/camera.h"
 
@@ -9,5 +10,8 @@ namespace espalier {
 
 /// Sets the pixels whose centres' rays meet a leaf (not a blossom).
 void draw_leaves(const Plant& plant, const Camera& camera, Mask& mask);
+
+/// The same for some leaves of a plant. The camera is orthographic.
+void draw_leaves(const LeafColumns& leaves, const Camera& camera, Mask& mask);
 
 }  // namespace espalier

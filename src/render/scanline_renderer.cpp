@@ -9,10 +9,19 @@ namespace espalier {
 
 namespace {
 
-class ScanlineRenderer final : public SilhouetteRenderer {
+class ScanlineRenderer final : public SilhouetteRenderer, private SilhouetteParts {
  public:
   void draw(const Plant& plant, const Camera& camera, Mask& mask) override {
     mask.reset(camera.width_px, camera.height_px);
+    add_plant(plant, camera, mask);
+  }
+  SilhouetteParts* parts() override { return this; }
+
+ private:
+  void add_leaves(const LeafColumns& leaves, const Camera& camera, Mask& mask) override {
+    draw_leaves(leaves, camera, mask);
+  }
+  void add_plant(const Plant& plant, const Camera& camera, Mask& mask) override {
     draw_leaves(plant, camera, mask);
     draw_blossoms(plant, camera, mask);
     draw_stems(plant, camera, mask);

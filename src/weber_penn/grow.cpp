@@ -49,7 +49,7 @@ class Growth {
         uses_vectors_(lanes == Lanes::many),
         plant_(plant),
         stem_batch_(memory.stem_batch),
-        leaf_batch_(p, memory.leaves, plant.leaves),
+        leaf_batch_(p, memory.leaves, plant.leaves, settings.leaf_sink),
         twig_batch_(p, settings, memory.twigs, memory.next_level),
         level_(memory.level),
         next_level_(memory.next_level) {
@@ -288,7 +288,8 @@ double Growth::over_budget_factor() const {
       (static_cast<double>(plant_.stems.size() + next_level_.size()) + twig_batch_.waiting()) /
       settings_.budget.max_stems;
   const double leaves =
-      (static_cast<double>(plant_.leaves.size()) + leaf_batch_.waiting()) / settings_.budget.max_leaves;
+      (static_cast<double>(plant_.leaves.size() + leaf_batch_.given()) + leaf_batch_.waiting()) /
+      settings_.budget.max_leaves;
   return std::max(stems, leaves);
 }
 

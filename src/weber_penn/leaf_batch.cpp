@@ -55,33 +55,60 @@ HWY_INLINE void find_bends(WaitingChildren& leaves, std::size_t at, float leaf_b
   hn::Store(hn::Mul(set(leaf_bend), arc_tangent2_deg(sine, cosine)), Floats(), &leaves.roll_deg[at]);
 }
 
-HWY_INLINE void place(const LeafVectors& leaf, std::size_t at, const LeafRows& to) {
-  store(leaf.position, to.position_m + at);
-  store(leaf.axis, to.axis + at);
-  store(leaf.side, to.side + at);
-}
+/// In the plant. Writes whole vectors: up to 7 rows more than there are leaves.
+struct InRows {
+  const LeafRows& to;
 
-/// Writes whole vectors: up to 7 rows more than there are leaves.
-void place_all(const WeberPennParameters& p, WaitingChildren& leaves, const LeafRows& to) {
-  const auto count = static_cast<std::size_t>(leaves.count), lanes = hn::Lanes(Floats());
-  for (std::size_t at = 0; at < count; at += lanes) make_frames(leaves, at);
-  for (std::size_t at = 0; at < count; at += lanes) make_turns(leaves, at);
-  if (p.leaf_bend <= 0) {
-    for (std::size_t at = 0; at < count; at += lanes) place(turned_leaves(leaves, at), at, to);
-    return;
+  HWY_INLINE void operator()(const LeafVectors& leaf, std::size_t at) const {
+    store(leaf.position, to.position_m + at);
+    store(leaf.axis, to.axis + at);
+    store(leaf.side, to.side + at);
   }
-  for (std::size_t at = 0; at < count; at += lanes) {
-    const LeafVectors leaf = turned_leaves(leaves, at);
+};
+
+/// In the columns that they come from.
+struct InColumns {
+  WaitingChildren& leaves;
+
+  HWY_INLINE void operator()(const LeafVectors& leaf, std::size_t at) const {
     store(leaf.position, leaves.point, at);
     store(leaf.axis, leaves.tangent, at);
     store(leaf.side, leaves.right, at);
   }
+};
+
+template <typename Put>
+void place_all(const WeberPennParameters& p, WaitingChildren& leaves, const Put& put) {
+  const auto count = static_cast<std::size_t>(leaves.count), lanes = hn::Lanes(Floats());
+  for (std::size_t at = 0; at < count; at += lanes) make_frames(leaves, at);
+  for (std::size_t at = 0; at < count; at += lanes) make_turns(leaves, at);
+  if (p.leaf_bend <= 0) {
+    for (std::size_t at = 0; at < count; at += lanes) put(turned_leaves(leaves, at), at);
+    return;
+  }
+  const InColumns in_columns{leaves};
+  for (std::size_t at = 0; at < count; at += lanes) in_columns(turned_leaves(leaves, at), at);
   for (std::size_t at = 0; at < count; at += lanes) find_bends(leaves, at, p.leaf_bend);
   for (std::size_t at = 0; at < count; at += lanes) {
     const SineCosine turn = sine_cosine_deg(hn::Load(Floats(), &leaves.roll_deg[at]));
-    place({load(leaves.point, at), turned_about_z(load(leaves.tangent, at), turn),
-           turned_about_z(load(leaves.right, at), turn)},
-          at, to);
+    put({load(leaves.point, at), turned_about_z(load(leaves.tangent, at), turn),
+         turned_about_z(load(leaves.right, at), turn)},
+        at);
+  }
+}
+
+void place_in_rows(const WeberPennParameters& p, WaitingChildren& leaves, const LeafRows& to) {
+  place_all(p, leaves, InRows{to});
+}
+
+/// Growths become lengths, offsets widths.
+void place_in_columns(const WeberPennParameters& p, WaitingChildren& leaves) {
+  place_all(p, leaves, InColumns{leaves});
+  const Floats d;
+  for (std::size_t at = 0; at < static_cast<std::size_t>(leaves.count); at += hn::Lanes(d)) {
+    const Vector length_m = hn::Mul(set(p.leaf_scale), hn::Load(d, &leaves.growth[at]));
+    hn::Store(length_m, d, &leaves.growth[at]);
+    hn::Store(hn::Mul(length_m, set(p.leaf_scale_x)), d, &leaves.offset_m[at]);
   }
 }
 
@@ -93,7 +120,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace espalier {
 
-HWY_EXPORT(place_all);
+HWY_EXPORT(place_in_rows);
+HWY_EXPORT(place_in_columns);
 
 bool LeafBatch::takes(const GrowingStem& stem, const WeberPennParameters& p) {
   return p.leaf_blos_num > 0 && takes_children_of(stem.level, p);
@@ -128,8 +156,18 @@ void LeafBatch::append_sizes() {
   }
 }
 
-void LeafBatch::flush() {
-  if (waiting_.count == 0) return;
+void LeafBatch::give() {
+  HWY_DYNAMIC_DISPATCH(place_in_columns)(p_, waiting_);
+  const auto columns = [](const WaitingChildren::Columns3& c) {
+    return LeafColumns::Columns3{c.x.data(), c.y.data(), c.z.data()};
+  };
+  const auto count = static_cast<std::size_t>(waiting_.count);
+  sink_->take({columns(waiting_.point), columns(waiting_.tangent), columns(waiting_.right),
+               waiting_.growth.data(), waiting_.offset_m.data(), count, static_cast<int>(p_.leaf_shape)});
+  given_ += count;
+}
+
+void LeafBatch::append() {
   const std::size_t before = leaves_.position_m.size(),
                     after = before + static_cast<std::size_t>(waiting_.count);
   const auto resize = [&](std::size_t size) {
@@ -137,10 +175,18 @@ void LeafBatch::flush() {
       column->resize(size);
   };
   resize(after + kMostBeyond);
-  HWY_DYNAMIC_DISPATCH(place_all)
+  HWY_DYNAMIC_DISPATCH(place_in_rows)
   (p_, waiting_, {&leaves_.position_m[before], &leaves_.axis[before], &leaves_.side[before]});
   resize(after);
   append_sizes();
+}
+
+void LeafBatch::flush() {
+  if (waiting_.count == 0) return;
+  if (sink_ != nullptr)
+    give();
+  else
+    append();
   waiting_.count = 0;
 }
 

@@ -102,12 +102,20 @@ GrowingStem TwigBatch::made(std::size_t row) const {
   return stem;
 }
 
+/// No point of a stem that does not wind is further from its start than it is long.
+bool TwigBatch::surely_fits(const GrowingStem& stem) const {
+  constexpr float kRounding = 1.001f;
+  return floor_ && p_.curve_v[level_index(stem.level)] >= 0 &&
+         floor_->surely_holds_ball(stem.turtle.position_m, kRounding * stem.length_m, stem.tree.scale_m);
+}
+
 void TwigBatch::flush() {
   HWY_DYNAMIC_DISPATCH(make_stems)(p_, parent_level_ + 1, parents_, waiting_, made_);
   for (std::size_t row = 0; row < static_cast<std::size_t>(waiting_.count); ++row) {
     if (waiting_.parent_radius_m[row] < kThinnestParentM || made_.length_m[row] < kShortestStemM) continue;
     stems_.push_back(made(row));
     GrowingStem& stem = stems_.back();
+    if (surely_fits(stem)) continue;
     const float length_m = pruned_length_m(stem, p_, settings_.prune_to);
     if (length_m == stem.length_m) continue;
     stem.length_m = length_m;

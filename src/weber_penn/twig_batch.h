@@ -1,10 +1,12 @@
 // Child stems made many at a time, see child_batch.h: what Growth::grow_child makes of a site one by one
 // (grow.cpp), within the rounding of floats. Metres and degrees.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "plant/model.h"
 #include "weber_penn/child_batch.h"
+#include "weber_penn/envelope_floor.h"
 
 namespace espalier {
 
@@ -29,7 +31,9 @@ class TwigBatch : public ChildBatch {
   /// Made stems go to the end of `stems`.
   TwigBatch(const WeberPennParameters& parameters, const GrowthSettings& settings, ChildBatchMemory& memory,
             std::vector<GrowingStem>& stems)
-      : ChildBatch(ChildPlacer::Bears::stems, parameters, memory), settings_(settings), stems_(stems) {}
+      : ChildBatch(ChildPlacer::Bears::stems, parameters, memory), settings_(settings), stems_(stems) {
+    if (parameters.prune_ratio > 0 && settings.prune_to == nullptr) floor_.emplace(parameters);
+  }
 
   /// Whether children of these stems can be made in batches: not in fans, on helices, on trunks, or where the
   /// stem swells periodically.
@@ -42,12 +46,14 @@ class TwigBatch : public ChildBatch {
 
  private:
   GrowingStem made(std::size_t row) const;
+  bool surely_fits(const GrowingStem& stem) const;
 
   float growth(const GrowingStem&, float grown_fraction) const override { return grown_fraction; }
   void note(const GrowingStem& stem, int first_row, int count) override;
 
   const GrowthSettings& settings_;
   std::vector<GrowingStem>& stems_;
+  std::optional<EnvelopeFloor> floor_;  ///< where the parametric envelope prunes
   std::int32_t parent_index_ = -1;
   int parent_level_ = 0;
   TwigBatchParents parents_;

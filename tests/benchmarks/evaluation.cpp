@@ -4,6 +4,7 @@
 //   build/bin/bench_evaluation --benchmark_filter=quaking_aspen
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@
 #include "models/models.h"
 #include "models/preset.h"
 #include "render/embree_scene.h"
-#include "render/silhouette.h"
+#include "render/grow_and_draw.h"
 
 namespace espalier {
 namespace {
@@ -96,10 +97,10 @@ void evaluate_with(SilhouetteRenderer& renderer, benchmark::State& state, const 
   const Setting setting(species, size_px);
   Plant plant;
   Mask mask;
+  const std::array pictures{SilhouetteView{&setting.camera, &mask}};
   Seed seed = 0;
   for (auto _ : state) {
-    setting.grow(++seed, plant);
-    renderer.draw(plant, setting.camera, mask);
+    grow_and_draw(setting.model, setting.preset.values, ++seed, {}, renderer, pictures, plant);
     benchmark::DoNotOptimize(iou(mask, setting.target));
   }
   state.SetItemsProcessed(state.iterations());

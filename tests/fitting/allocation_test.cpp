@@ -1,6 +1,7 @@
 // An evaluation allocates nothing once its memory has grown to size: grow, draw, compare.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cstdlib>
 #include <new>
@@ -8,7 +9,7 @@
 #include "image/compare.h"
 #include "models/models.h"
 #include "models/preset.h"
-#include "render/silhouette.h"
+#include "render/grow_and_draw.h"
 
 namespace {
 std::atomic<long> allocations = 0;
@@ -46,9 +47,11 @@ TEST(Allocation, NoneOnceWarm) {
     renderer->draw(plant, camera, mask);
     const PreparedTarget target(mask);
     const MaskObjective objective = parse_objective("0.5*truncated_distance+0.5*iou");
+    const std::array views{SilhouetteView{&camera, &mask}};
     const auto evaluate = [&](Seed seed) {
       model.generate(preset.values, seed, {}, plant);
       renderer->draw(plant, camera, mask);
+      grow_and_draw(model, preset.values, seed, {}, *renderer, views, plant);
       return dissimilarity(objective, mask, target);
     };
     for (Seed seed = 1; seed <= 3; ++seed) evaluate(seed);

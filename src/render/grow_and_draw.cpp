@@ -1,0 +1,49 @@
+#include "render/grow_and_draw.h"
+
+#include <algorithm>
+
+namespace espalier {
+
+namespace {
+
+/// Draws leaves into all pictures as they come.
+class LeafPen : public LeafSink {
+ public:
+  LeafPen(SilhouetteParts& parts, std::span<const SilhouetteView> views) : parts_(parts), views_(views) {}
+
+  void take(const LeafColumns& leaves) override {
+    for (const SilhouetteView& view : views_) parts_.add_leaves(leaves, *view.camera, *view.mask);
+  }
+
+ private:
+  SilhouetteParts& parts_;
+  std::span<const SilhouetteView> views_;
+};
+
+}  // namespace
+
+GrowthResult grow_and_draw(const Model& model, std::span<const double> values, Seed seed,
+                           const GrowthSettings& settings, SilhouetteRenderer& renderer,
+                           std::span<const SilhouetteView> views, Plant& plant) {
+  SilhouetteParts* const parts = renderer.parts();
+  const bool in_parts =
+      parts != nullptr && std::all_of(views.begin(), views.end(), [](const SilhouetteView& view) {
+        return view.camera->projection == Projection::orthographic;
+      });
+  if (!in_parts) {
+    const GrowthResult result = model.generate(values, seed, settings, plant);
+    if (result.grown)
+      for (const SilhouetteView& view : views) renderer.draw(plant, *view.camera, *view.mask);
+    return result;
+  }
+  for (const SilhouetteView& view : views) view.mask->reset(view.camera->width_px, view.camera->height_px);
+  LeafPen pen(*parts, views);
+  GrowthSettings with_pen = settings;
+  with_pen.leaf_sink = &pen;
+  const GrowthResult result = model.generate(values, seed, with_pen, plant);
+  if (result.grown)
+    for (const SilhouetteView& view : views) parts->add_plant(plant, *view.camera, *view.mask);
+  return result;
+}
+
+}  // namespace espalier

@@ -1,0 +1,23 @@
+// Growing a plant and drawing its silhouettes, leaves as they grow where the renderer can: the same pixels as
+// growing first and drawing then, without ever keeping the leaves.
+#pragma once
+#include <span>
+
+#include "plant/model.h"
+#include "render/silhouette.h"
+
+namespace espalier {
+
+/// Where one view of the plant goes; neither is owned.
+struct SilhouetteView {
+  const Camera* camera = nullptr;
+  Mask* mask = nullptr;  ///< gets the camera's size
+};
+
+/// Grows into `plant`, and draws it into all views. Afterwards the plant may lack leaves. Where the growth
+/// is refused, the masks mean nothing.
+GrowthResult grow_and_draw(const Model& model, std::span<const double> values, Seed seed,
+                           const GrowthSettings& settings, SilhouetteRenderer& renderer,
+                           std::span<const SilhouetteView> views, Plant& plant);
+
+}  // namespace espalier
