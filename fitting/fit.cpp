@@ -194,6 +194,7 @@ void FitRun::refresh_directory() {
   if (state_.branches.lanes.empty()) state_.best = scorer_.best();
   state_.evaluations = static_cast<long>(scorer_.evaluations());
   state_.seconds = began;
+  state_.failures = plant_scorer_.failures();
   write_run_directory(directory_, state_);
   refreshed_at_ = seconds();
   refresh_cost_ = refreshed_at_ - began;
@@ -361,11 +362,13 @@ FitResult FitRun::finish() {
           .seconds = state_.seconds,
           .stopped_by = *state_.stopped_by,
           .best_start = best_start->name,
-          .dimension = dimension_};
+          .dimension = dimension_,
+          .failures = state_.failures};
 }
 
 FitResult FitRun::run(std::vector<StartPoint> starts, const std::optional<SpeciesSpace>& species) {
   std::vector<double> scores = score_starts(starts);
+  plant_scorer_.forgive_failures();
   if (species) search_species(*species, starts, scores);
   search(starts, scores);
   if (will_refine()) refine();

@@ -8,6 +8,7 @@
 
 #include "fitting/fit_record.h"
 #include "fitting/fit_task.h"
+#include "fitting/plant_scorer.h"
 #include "fitting/run_directory.h"
 
 namespace espalier {
@@ -38,6 +39,7 @@ struct FitResult {
   std::string stopped_by;  ///< "evaluations", "time", "target_fitness", "interrupted", "converged"
   std::string best_start;
   std::size_t dimension = 0;
+  CandidateFailures failures = {};  ///< since the run began or was resumed
 };
 
 /// Runs the fit. All input is checked before `directory` is made. Throws InputError, for the record, its

@@ -47,6 +47,20 @@ double PlantScorer::score_one(const ParameterValues& values, Seed seed, Worker& 
   return sum / static_cast<double>(task_.views.size());
 }
 
+/// True where a seed of the candidate failed. Throws what is not to be forgiven.
+bool PlantScorer::note_failure(std::span<const std::exception_ptr> errors) {
+  const auto failed = std::find_if(errors.begin(), errors.end(),
+                                   [](const std::exception_ptr& error) { return error != nullptr; });
+  if (failed == errors.end()) return false;
+  if (!forgives_) std::rethrow_exception(*failed);
+  try {
+    std::rethrow_exception(*failed);
+  } catch (const InputError& error) {
+    if (failures_.count++ == 0) failures_.first = error.what();
+  }
+  return true;
+}
+
 void PlantScorer::score(std::span<const ParameterValues> candidates, std::span<double> scores) {
   ESPALIER_CHECK_EQ(scores.size(), candidates.size());
   const std::size_t seeds = task_.plant_seeds.size();
@@ -63,9 +77,11 @@ void PlantScorer::score(std::span<const ParameterValues> candidates, std::span<d
       errors[slot] = std::current_exception();
     }
   }
-  for (const std::exception_ptr& error : errors)
-    if (error) std::rethrow_exception(error);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (note_failure(std::span(errors).subspan(i * seeds, seeds))) {
+      scores[i] = kFailedCandidate;
+      continue;
+    }
     double sum = 0;
     for (std::size_t s = 0; s < seeds; ++s) sum += scores_by_seed_[i * seeds + s];
     scores[i] = sum / static_cast<double>(seeds);

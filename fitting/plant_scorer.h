@@ -3,6 +3,8 @@
 // 1 + log10(factor by which it exceeds the budget), worse than any tree and finite.
 // Parallel over (candidate, seed), reduced in index order: the same bits for any number of threads.
 #pragma once
+#include <exception>
+#include <string>
 #include <vector>
 
 #include "fitting/fit_task.h"
@@ -11,11 +13,25 @@
 
 namespace espalier {
 
+/// The score of a candidate that the model fails on: worse than all others, and finite.
+inline constexpr double kFailedCandidate = 1000;
+
+/// Candidates that failed, and why the first of them did.
+struct CandidateFailures {
+  long count = 0;
+  std::string first;
+};
+
 class PlantScorer : public Scorer {
  public:
   /// threads: at least 1. `task` must outlive the scorer.
   PlantScorer(const FitTask& task, int threads);
   void score(std::span<const ParameterValues> candidates, std::span<double> scores) override;
+
+  /// From now on a candidate that the model refuses with an InputError scores kFailedCandidate instead of
+  /// throwing: an L-system's expressions may have no value there.
+  void forgive_failures() { forgives_ = true; }
+  const CandidateFailures& failures() const { return failures_; }
 
  private:
   /// What a thread keeps from one candidate to the next.
@@ -26,11 +42,14 @@ class PlantScorer : public Scorer {
     std::vector<SilhouetteView> drawn_views;
   };
   void prepare(Worker& worker) const;
+  bool note_failure(std::span<const std::exception_ptr> errors);
   double score_one(const ParameterValues& values, Seed seed, Worker& worker) const;
 
   const FitTask& task_;
   std::vector<Worker> workers_;
   std::vector<double> scores_by_seed_;
+  bool forgives_ = false;
+  CandidateFailures failures_;
 };
 
 /// The score of a candidate that exceeds its growth budget `factor` times (> 1).

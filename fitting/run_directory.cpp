@@ -176,6 +176,8 @@ std::string run_summary(const RunState& state) {
   summary["fit_seeds"] = state.record.fit_seeds;
   summary["size_px"] = state.record.target.size_px;
   summary["embree_disagreement_pixels"] = state.embree_disagreement_px;
+  if (state.failures.count > 0)
+    summary["failed_candidates"] = {{"count", state.failures.count}, {"first", state.failures.first}};
   if (state.record.height_m) summary["height_m"] = *state.record.height_m;
   for (const ViewRecord& view : state.record.views) summary["pictures"].push_back(view.picture.string());
   for (const ScoredStart& start : state.starts)

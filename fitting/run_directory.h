@@ -9,6 +9,7 @@
 #include "fitting/fit_record.h"
 #include "fitting/fit_task.h"
 #include "fitting/logged_scorer.h"
+#include "fitting/plant_scorer.h"
 #include "fitting/stages/branch_rounds.h"
 #include "fitting/trace.h"
 
@@ -35,6 +36,7 @@ struct RunState {
   double seconds = 0;
   std::optional<std::string> stopped_by = {};  ///< none while it runs
   std::size_t embree_disagreement_px = 0;
+  CandidateFailures failures = {};  ///< since the run began or was resumed
 };
 
 /// What the branches of the best tree are overridden by.

@@ -166,6 +166,9 @@ void print_result(const FitResult& result, const FitRecord& record, const fs::pa
   fmt::print("{} evaluations in {:.1f} s with {} over {} parameters, stopped by {}; best start: {}\n",
              result.evaluations, result.seconds, record.optimizer, result.dimension, result.stopped_by,
              result.best_start);
+  if (result.failures.count > 0)
+    fmt::print(stderr, "{} candidates failed and counted as the worst; the first: {}\n",
+               result.failures.count, result.failures.first);
   if (result.branch_steps > 0)
     fmt::print("{} branches refined in {} steps\n", result.overrides.nodes.size(), result.branch_steps);
   fmt::print("files: {} (best.toml, best.png, overlay.png, convergence.png, summary.json)\n",

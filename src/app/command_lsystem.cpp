@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/plant_options.h"
 #include "app/view_options.h"
 #include "core/error.h"
 #include "image/picture.h"
@@ -24,7 +25,7 @@ struct LsystemOptions {
   std::string file;
   std::optional<int> steps;
   Seed seed = 1;
-  std::vector<std::string> assignments;
+  std::vector<std::string> assignments, volumes;
   bool print_string = false;
   std::optional<int> frames;
   std::string output;
@@ -43,6 +44,15 @@ void assign(const std::string& assignment, const ParameterTable& table, Paramete
   values[row] = std::strtod(text.c_str(), &stop);
   if (text.empty() || *stop != 0) throw_input_error("--set {}: '{}' is not a number", assignment, text);
   check_value(table.rows[row], values[row], "--set " + assignment);
+}
+
+/// --volume name=text, metres.
+void replace_volume(const std::string& assignment, double unit_m, lsystem::Derivation& derivation) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos) throw_input_error("--volume {}: expected name=volume", assignment);
+  VolumePtr volume = read_volume(assignment.substr(equals + 1));
+  derivation.replace_volume(assignment.substr(0, equals),
+                            make_scaled(static_cast<float>(1 / unit_m), std::move(volume)));
 }
 
 void draw(const Plant& plant, const Camera& camera, const LsystemOptions& options, const std::string& path) {
@@ -103,6 +113,9 @@ void run_lsystem(const LsystemOptions& options) {
   for (const std::string& assignment : options.assignments) assign(assignment, grammar.parameters, values);
   lsystem::Derivation derivation(grammar, options.limits);
   derivation.start(values, options.seed);
+  const double unit_m = derivation.settings().unit_m;
+  for (const std::string& volume : options.volumes) replace_volume(volume, unit_m, derivation);
+  if (!options.volumes.empty()) derivation.start(values, options.seed);
   const int steps = options.steps.value_or(derivation.settings().steps);
   if (options.frames && !options.print_string) return draw_frames(derivation, steps, options);
   derivation.run(steps);
@@ -122,6 +135,11 @@ void add_lsystem_command(CLI::App& app) {
       ->check(reject_negative)
       ->capture_default_str();
   command->add_option("--set", options->assignments, "change a parameter: name=value (repeatable)")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--volume", options->volumes,
+                   "NAME=VOLUME: instead of a volume that the file declares, in metres (repeatable); see "
+                   "--prune-to of render")
       ->allow_extra_args(false);
   command->add_flag("--string", options->print_string, "print the string instead of drawing it");
   command->add_option("--frames", options->frames,

@@ -6,6 +6,8 @@
 
 #include "core/error.h"
 #include "environment/volume.h"
+#include "lsystem/bundled.h"
+#include "lsystem/derivation.h"
 #include "models/models.h"
 #include "models/preset.h"
 #include "overrides/change_graph.h"
@@ -53,9 +55,21 @@ void add_plant_options(CLI::App& command, PlantOptions& options) {
       ->capture_default_str();
   command.add_option("--set", options.assignments, "change a parameter: name=value (repeatable)")
       ->allow_extra_args(false);
-  command.add_option("--prune-to", options.prune_to,
-                     "keep the plant inside box:cx,cy,cz,sx,sy,sz, ball:cx,cy,cz,r, cylinder:cx,cy,cz,r,h "
-                     "or mesh:FILE (metres)");
+  command.add_option(
+      "--prune-to", options.prune_to,
+      "keep the plant inside box:cx,cy,cz,sx,sy,sz, ball:cx,cy,cz,r, cylinder:cx,cy,cz,r,h, "
+      "mesh:FILE (metres), an expression such as \"union(ball(0,0,4, 2), box(0,0,1, 1,1,2))\", or "
+      "FILE.lsys:NAME, a volume of an L-system; an L-system's own volume 'clip' becomes this one");
+}
+
+std::unique_ptr<Volume> read_volume(const std::string& text) {
+  const std::size_t end = text.rfind(".lsys:");
+  if (end == std::string::npos) return parse_volume(text);
+  const std::string file = text.substr(0, end + 5), name = text.substr(end + 6);
+  const lsystem::Grammar grammar = lsystem::load_grammar(file);
+  lsystem::Derivation derivation(grammar);
+  derivation.start(1);
+  return make_scaled(static_cast<float>(derivation.settings().unit_m), derivation.volume(name));
 }
 
 Plant grow_plant(const PlantOptions& options) {
@@ -63,7 +77,7 @@ Plant grow_plant(const PlantOptions& options) {
   const Model& model = model_by_name(preset.model);
   for (const std::string& assignment : options.assignments) assign(assignment, model.table(), preset.values);
   const std::unique_ptr<Volume> volume =
-      options.prune_to.empty() ? envelope_of(preset.grown_into) : parse_volume(options.prune_to);
+      options.prune_to.empty() ? envelope_of(preset.grown_into) : read_volume(options.prune_to);
   GrowthSettings settings;
   settings.prune_to = volume.get();
   settings.train = options.prune_to.empty();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "environment/volume.h"
 #include "plant/plant.h"
 
 namespace CLI {
@@ -23,6 +24,10 @@ struct PlantOptions {
 
 /// Adds the positional PRESET and the options --seed, --set and --prune-to to a command.
 void add_plant_options(CLI::App& command, PlantOptions& options);
+
+/// A volume as text (environment/volume.h), or "FILE.lsys:NAME", one that an L-system declares, with its
+/// default parameters. Metres. Throws InputError.
+std::unique_ptr<Volume> read_volume(const std::string& text);
 
 /// Grows the plant. Throws InputError for an unknown preset or parameter, a value outside its bounds, a bad
 /// volume, or a plant that would exceed the growth budget.

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "environment/closed_mesh.h"
+#include "environment/mesh_distance.h"
 #include "environment/volume.h"
 
 namespace espalier {
@@ -155,12 +156,19 @@ class ColumnGrid {
 class MeshVolume final : public Volume {
  public:
   explicit MeshVolume(const ClosedMesh& mesh)
-      : oriented_(mesh.oriented), grids_{ColumnGrid(mesh, 2), ColumnGrid(mesh, 0), ColumnGrid(mesh, 1)} {}
+      : oriented_(mesh.oriented),
+        distance_(mesh),
+        grids_{ColumnGrid(mesh, 2), ColumnGrid(mesh, 0), ColumnGrid(mesh, 1)} {}
 
   /// Rays along z and x; where rounding at the surface makes them disagree, y decides.
   bool contains(Vec3 point_m) const override {
     const bool along_z = vote(0, point_m), along_x = vote(1, point_m);
     return along_z == along_x ? along_z : vote(2, point_m);
+  }
+
+  float signed_distance_m(Vec3 point_m) const override {
+    const float distance_m = distance_.to_surface_m(point_m);
+    return contains(point_m) ? -distance_m : distance_m;
   }
 
  private:
@@ -170,6 +178,7 @@ class MeshVolume final : public Volume {
   }
 
   bool oriented_;
+  MeshDistance distance_;
   std::array<ColumnGrid, 3> grids_;
 };
 

@@ -1,4 +1,4 @@
-// Volumes from their command-line form: a kind, a colon, and numbers in metres or a path.
+// Volumes from their command-line forms: a kind, a colon, and numbers in metres or a path; or an expression.
 // One row of kKinds a kind: its name, how many numbers it takes, its form for messages, its maker.
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "environment/volume.h"
+#include "environment/volume_tree.h"
 
 namespace espalier {
 
@@ -39,7 +39,8 @@ constexpr std::array<VolumeKind, 3> kKinds{{
 }};
 
 constexpr std::string_view kForms =
-    "box:cx,cy,cz,sx,sy,sz, ball:cx,cy,cz,r, cylinder:cx,cy,cz,r,h or mesh:FILE";
+    "box:cx,cy,cz,sx,sy,sz, ball:cx,cy,cz,r, cylinder:cx,cy,cz,r,h, mesh:FILE or an expression such as "
+    "union(ball(0,0,4, 2), box(0,0,1, 1,1,2))";
 
 float parse_number(std::string_view number, const std::string& text, const VolumeKind& kind) {
   float value = 0;
@@ -63,9 +64,31 @@ std::vector<float> parse_numbers(std::string_view list, const std::string& text,
   return numbers;
 }
 
+/// "union(ball(0,0,4,3), mesh(\"rock.obj\"))".
+VolumePtr parse_expression(const std::string& text) {
+  try {
+    const VolumeTree tree = parse_volume_tree(
+        text, [](std::string_view) { return false; }, [](const std::string& file) { return file; });
+    const auto number = [](const VolumeTree::Number& n) {
+      double value = 0;
+      const char* end = n.text.data() + n.text.size();
+      const auto [stop, error] = std::from_chars(n.text.data(), end, value);
+      if (error != std::errc() || stop != end || !std::isfinite(value))
+        throw VolumeError(n.offset, fmt::format("'{}' is not a finite number", n.text));
+      return value;
+    };
+    return make_volume(tree, number, [](const std::string&) { return nullptr; });
+  } catch (const VolumeError& error) {
+    throw_input_error("volume '{}', column {}: {}", text, error.offset + 1, error.what());
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<Volume> parse_volume(const std::string& text) {
+  const std::size_t bracket = text.find('(');
+  if (bracket != std::string::npos && bracket < text.find(':'))
+    return make_moved({0, 0, 0}, parse_expression(text));
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos) throw_input_error("volume '{}': no colon (expected {})", text, kForms);
   const std::string name = text.substr(0, colon), rest = text.substr(colon + 1);

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "image/distance_field.h"
+#include "image/read_target.h"
 
 namespace espalier {
 
@@ -33,6 +34,7 @@ class OneOutline {
   OneOutline(const PictureOutline& picture, bool limits_depth)
       : camera_(picture.camera),
         distance_px_(distances_to_unset_px(picture.outline)),
+        outer_distance_px_(distances_to_set_px(picture.outline)),
         base_depth_m_(project(picture.camera, {0, 0, 0}).depth_m),
         limits_depth_(limits_depth) {
     for (int y = 0; y < picture.outline.height_px(); ++y)
@@ -42,6 +44,14 @@ class OneOutline {
   bool contains(Vec3 point_m) const {
     const PicturePoint seen = project(camera_, point_m);
     return distance_px(seen) > 0 && depth_room_m(seen) >= 0;
+  }
+
+  /// The larger of the distances across the picture and in depth: never more than the true one outside.
+  float signed_distance_m(Vec3 point_m) const {
+    const PicturePoint seen = project(camera_, point_m);
+    const bool flat = camera_.projection == Projection::orthographic;
+    const float across_m = picture_distance_px(seen) * camera_.metres_per_px * (flat ? 1 : seen.depth_m);
+    return limits_depth_ ? std::max(across_m, -depth_room_m(seen)) : across_m;
   }
 
   /// Only where a pixel has one size at all depths.
@@ -54,9 +64,23 @@ class OneOutline {
   }
 
  private:
+  /// Negative inside; half a pixel less than between centres, because the outline runs between them.
+  float picture_distance_px(const PicturePoint& seen) const {
+    if (const float inside_px = distance_px(seen); inside_px > 0) return 0.5f - inside_px;
+    const float x = std::clamp(seen.x_px, 0.f, static_cast<float>(camera_.width_px) - 0.5f),
+                y = std::clamp(seen.y_px, 0.f, static_cast<float>(camera_.height_px) - 0.5f);
+    const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width_px) +
+                              static_cast<std::size_t>(x);
+    // Beyond the frame: at least as far as the frame, and as what is set is from its border.
+    return std::max(std::hypot(seen.x_px - x, seen.y_px - y), outer_distance_px_[pixel] - 0.5f);
+  }
+
   float distance_px(const PicturePoint& seen) const {
-    const auto x = static_cast<int>(std::floor(seen.x_px)), y = static_cast<int>(std::floor(seen.y_px));
-    if (x < 0 || y < 0 || x >= camera_.width_px || y >= camera_.height_px) return 0;
+    const bool in_frame = seen.x_px >= 0 && seen.y_px >= 0 &&
+                          seen.x_px < static_cast<float>(camera_.width_px) &&
+                          seen.y_px < static_cast<float>(camera_.height_px);
+    if (!in_frame) return 0;
+    const auto x = static_cast<int>(seen.x_px), y = static_cast<int>(seen.y_px);
     return distance_px_[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width_px) +
                         static_cast<std::size_t>(x)];
   }
@@ -68,7 +92,7 @@ class OneOutline {
   }
 
   float half_depth_m(float y_px) const {
-    const int row = std::clamp(static_cast<int>(std::floor(y_px)), 0, camera_.height_px - 1);
+    const float row = std::clamp(std::floor(y_px), 0.f, static_cast<float>(camera_.height_px - 1));
     return half_widths_px_[static_cast<std::size_t>(row)] * metres_per_px();
   }
 
@@ -86,7 +110,8 @@ class OneOutline {
   }
 
   Camera camera_;
-  std::vector<float> distance_px_;  ///< of each pixel to the nearest unset one
+  std::vector<float> distance_px_;        ///< of each pixel to the nearest unset one
+  std::vector<float> outer_distance_px_;  ///< and to the nearest set one
   std::vector<float> half_widths_px_;
   float base_depth_m_;
   bool limits_depth_;
@@ -103,6 +128,12 @@ class PictureEnvelope : public Volume {
                        [&](const OneOutline& one) { return one.contains(point_m); });
   }
 
+  float signed_distance_m(Vec3 point_m) const override {
+    float farthest_m = -std::numeric_limits<float>::infinity();
+    for (const OneOutline& one : outlines_) farthest_m = std::max(farthest_m, one.signed_distance_m(point_m));
+    return farthest_m;
+  }
+
   bool surely_contains_ball(Vec3 center_m, float radius_m) const override {
     return std::all_of(outlines_.begin(), outlines_.end(),
                        [&](const OneOutline& one) { return one.surely_contains_ball(center_m, radius_m); });
@@ -112,7 +143,30 @@ class PictureEnvelope : public Volume {
   std::vector<OneOutline> outlines_;
 };
 
+struct RowRange {
+  int top = 0, bottom = -1;
+};
+
+RowRange rows_of(const Mask& mask) {
+  RowRange rows{mask.height_px(), -1};
+  for (int y = 0; y < mask.height_px(); ++y)
+    for (int x = 0; x < mask.width_px(); ++x)
+      if (mask.get(x, y)) rows = {std::min(rows.top, y), y};
+  return rows;
+}
+
 }  // namespace
+
+std::unique_ptr<Volume> make_picture_volume(const std::filesystem::path& path) {
+  const Mask mask = read_mask(path).mask;
+  const RowRange rows = rows_of(mask);
+  if (rows.bottom < 0)
+    throw_input_error("{}: got an empty outline, expected a picture of a shape", path.string());
+  const auto height_px = static_cast<float>(rows.bottom + 1 - rows.top);
+  const Camera camera = frame_base({0, 0, 0}, {}, 1 / height_px, mask.width_px(), mask.height_px(),
+                                   static_cast<float>(rows.bottom + 1));
+  return make_picture_envelope({{camera, mask}});
+}
 
 std::unique_ptr<Volume> make_picture_envelope(std::vector<PictureOutline> outlines) {
   for (const PictureOutline& picture : outlines)

@@ -2,6 +2,7 @@
 // filled outline. One picture says nothing of depth: there the tree is as deep as half its outline is wide at
 // that height. Several give the visual hull [Laurentini 1994, The visual hull concept].
 #pragma once
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -18,5 +19,9 @@ struct PictureOutline {
 
 /// Throws InputError where an outline is empty.
 std::unique_ptr<Volume> make_picture_envelope(std::vector<PictureOutline> outlines);
+
+/// The volume of one picture of a shape, seen from the front, 1 m high, its lowest row on the ground and the
+/// picture's middle at the origin. Throws InputError for what is no readable picture, or shows nothing.
+std::unique_ptr<Volume> make_picture_volume(const std::filesystem::path& path);
 
 }  // namespace espalier

@@ -1,5 +1,6 @@
-// The volumes with a formula: box, ball and cylinder. Metres, z up; surfaces belong to the inside.
-// Distances are compared as squares, in double, so that the answer does not hang on float rounding.
+// The volumes with a formula: box, ball, cylinder, ellipsoid and line. Metres, z up; surfaces belong to the
+// inside. Distances are compared as squares, in double, so that the answer does not hang on float rounding.
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -30,6 +31,12 @@ class Box final : public Volume {
     return std::fabs(p.x - center_m_.x) <= half_m_.x && std::fabs(p.y - center_m_.y) <= half_m_.y &&
            std::fabs(p.z - center_m_.z) <= half_m_.z;
   }
+  float signed_distance_m(Vec3 p) const override {
+    const Vec3 d = {std::fabs(p.x - center_m_.x) - half_m_.x, std::fabs(p.y - center_m_.y) - half_m_.y,
+                    std::fabs(p.z - center_m_.z) - half_m_.z};
+    return length({std::max(d.x, 0.f), std::max(d.y, 0.f), std::max(d.z, 0.f)}) +
+           std::min(std::max({d.x, d.y, d.z}), 0.f);
+  }
 
  private:
   Vec3 center_m_, half_m_;
@@ -42,6 +49,7 @@ class Ball final : public Volume {
     const Vec3 d = p - center_m_;
     return square(d.x) + square(d.y) + square(d.z) <= square(radius_m_);
   }
+  float signed_distance_m(Vec3 p) const override { return length(p - center_m_) - radius_m_; }
 
  private:
   Vec3 center_m_;
@@ -56,13 +64,68 @@ class Cylinder final : public Volume {
     const Vec3 d = p - base_m_;
     return d.z >= 0 && d.z <= height_m_ && square(d.x) + square(d.y) <= square(radius_m_);
   }
+  float signed_distance_m(Vec3 p) const override {
+    const Vec3 d = p - base_m_;
+    const float side = std::hypot(d.x, d.y) - radius_m_, end = std::fabs(d.z - height_m_ / 2) - height_m_ / 2;
+    return std::hypot(std::max(side, 0.f), std::max(end, 0.f)) + std::min(std::max(side, end), 0.f);
+  }
 
  private:
   Vec3 base_m_;
   float radius_m_, height_m_;
 };
 
+class Ellipsoid final : public Volume {
+ public:
+  Ellipsoid(Vec3 center_m, Vec3 radius_m) : center_m_(center_m), radius_m_(radius_m) {}
+  bool contains(Vec3 p) const override { return signed_distance_m(p) <= 0; }
+  /// To first order: f/|∇f| of f = |p/r| − 1.
+  float signed_distance_m(Vec3 p) const override {
+    const Vec3 d = p - center_m_;
+    const Vec3 unit{d.x / radius_m_.x, d.y / radius_m_.y, d.z / radius_m_.z};
+    const float share = length(unit);
+    const float slope = length({unit.x / radius_m_.x, unit.y / radius_m_.y, unit.z / radius_m_.z});
+    const float smallest_m = std::min({radius_m_.x, radius_m_.y, radius_m_.z});
+    return slope > 0 ? std::max(share * (share - 1) / slope, -smallest_m) : -smallest_m;
+  }
+
+ private:
+  Vec3 center_m_, radius_m_;
+};
+
+class Line final : public Volume {
+ public:
+  Line(Vec3 from_m, Vec3 to_m, float from_radius_m, float to_radius_m)
+      : from_m_(from_m), along_m_(to_m - from_m), from_radius_m_(from_radius_m), to_radius_m_(to_radius_m) {}
+  bool contains(Vec3 p) const override { return signed_distance_m(p) <= 0; }
+  float signed_distance_m(Vec3 p) const override {
+    const float square_m2 = dot(along_m_, along_m_);
+    const float share = square_m2 > 0 ? std::clamp(dot(p - from_m_, along_m_) / square_m2, 0.f, 1.f) : 0.f;
+    return length(p - from_m_ - along_m_ * share) - std::lerp(from_radius_m_, to_radius_m_, share);
+  }
+
+ private:
+  Vec3 from_m_, along_m_;
+  float from_radius_m_, to_radius_m_;
+};
+
 }  // namespace
+
+std::unique_ptr<Volume> make_ellipsoid(Vec3 center_m, Vec3 radius_m) {
+  check_finite("ellipsoid", center_m);
+  check_size("ellipsoid", "radius in x", radius_m.x);
+  check_size("ellipsoid", "radius in y", radius_m.y);
+  check_size("ellipsoid", "radius in z", radius_m.z);
+  return std::make_unique<Ellipsoid>(center_m, radius_m);
+}
+
+std::unique_ptr<Volume> make_line(Vec3 from_m, Vec3 to_m, float from_radius_m, float to_radius_m) {
+  check_finite("line", from_m);
+  check_finite("line", to_m);
+  check_size("line", "first radius", from_radius_m);
+  check_size("line", "last radius", to_radius_m);
+  return std::make_unique<Line>(from_m, to_m, from_radius_m, to_radius_m);
+}
 
 std::unique_ptr<Volume> make_box(Vec3 center_m, Vec3 size_m) {
   check_finite("box", center_m);

@@ -38,16 +38,17 @@ std::vector<double> lower_envelope(const std::vector<double>& f) {
   return result;
 }
 
-}  // namespace
+constexpr double kFar = 1e12;
 
-std::vector<float> distances_to_unset_px(const Mask& mask) {
+/// Distances of all pixels to those that are (or are not) set, with a frame of the unset around them.
+std::vector<float> distances_px(const Mask& mask, bool to_set) {
   const auto width = static_cast<std::size_t>(mask.width_px()) + 2,
-             height = static_cast<std::size_t>(mask.height_px()) + 2;  // a frame of unset pixels
-  std::vector<std::vector<double>> columns(width, std::vector<double>(height, 0));
-  constexpr double kFar = 1e12;
+             height = static_cast<std::size_t>(mask.height_px()) + 2;
+  std::vector<std::vector<double>> columns(width, std::vector<double>(height, to_set ? kFar : 0));
   for (int y = 0; y < mask.height_px(); ++y)
     for (int x = 0; x < mask.width_px(); ++x)
-      if (mask.get(x, y)) columns[static_cast<std::size_t>(x) + 1][static_cast<std::size_t>(y) + 1] = kFar;
+      if (mask.get(x, y))
+        columns[static_cast<std::size_t>(x) + 1][static_cast<std::size_t>(y) + 1] = to_set ? 0 : kFar;
   for (auto& column : columns) column = lower_envelope(column);
   std::vector<float> distances;
   distances.reserve((width - 2) * (height - 2));
@@ -60,5 +61,11 @@ std::vector<float> distances_to_unset_px(const Mask& mask) {
   }
   return distances;
 }
+
+}  // namespace
+
+std::vector<float> distances_to_unset_px(const Mask& mask) { return distances_px(mask, false); }
+
+std::vector<float> distances_to_set_px(const Mask& mask) { return distances_px(mask, true); }
 
 }  // namespace espalier

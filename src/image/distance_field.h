@@ -11,4 +11,7 @@ namespace espalier {
 /// pixels; 0 where it is unset itself. Beyond the border all is unset.
 std::vector<float> distances_to_unset_px(const Mask& mask);
 
+/// The same to the nearest set pixel. Beyond the border nothing is set; an empty mask gives at least 1e5.
+std::vector<float> distances_to_set_px(const Mask& mask);
+
 }  // namespace espalier

@@ -56,7 +56,9 @@ BlockExpression::BlockExpression(const Expression& expression, std::span<const s
 
 Column BlockExpression::compute(std::span<const Column> columns, const RandomKey* keys, std::size_t count,
                                 Workshop& workshop) {
-  if (program_) return run_program(*program_, {columns, workshop.globals.data(), keys, count}, scratch_);
+  if (program_)
+    return run_program(*program_, {columns, workshop.globals.data(), keys, count, &workshop.surroundings},
+                       scratch_);
   scratch_.resize(kBlockSize);
   workshop.functions.evaluate(function_, columns, keys, count, scratch_.data());
   return {scratch_.data(), 1};

@@ -6,6 +6,13 @@
 
 namespace espalier::lsystem {
 
+namespace {
+
+/// Where the meshes and pictures of bundled L-systems are.
+constexpr const char* kModelFolder = ESPALIER_DATA_DIR "/src/lsystem/models";
+
+}  // namespace
+
 std::vector<std::string> bundled_names() {
   std::vector<std::string> names;
   for (const EmbeddedFile& file : embedded_lsystems()) names.emplace_back(file.name);
@@ -18,7 +25,7 @@ Grammar load_grammar(const std::string& name_or_path) {
     return read_grammar(name_or_path);
   for (const EmbeddedFile& file : embedded_lsystems())
     if (name_or_path == file.name || name_or_path == fmt::format("{}.lsys", file.name))
-      return parse_grammar(std::string(file.text), fmt::format("{}.lsys", file.name));
+      return parse_grammar(std::string(file.text), fmt::format("{}.lsys", file.name), kModelFolder);
   throw_input_error("got L-system '{}', expected an .lsys file or a bundled one, the closest is '{}'",
                     name_or_path, closest_name(name_or_path, bundled_names()));
 }

@@ -270,7 +270,38 @@ class Compiler {
     return compile(function.body, scope);
   }
 
+  /// inside(clip, x, y, z): the first argument is the name of a volume or a field.
+  std::uint16_t object(const std::vector<std::string>& names) {
+    expect("(");
+    const auto found = std::find(names.begin(), names.end(), word());
+    if (found == names.end()) throw NotArithmetic{};
+    expect(",");
+    return static_cast<std::uint16_t>(found - names.begin());
+  }
+
+  Value at_point(Op op, std::uint16_t object, std::size_t coordinates, Type type) {
+    std::vector<Operand> point;
+    for (std::size_t i = 0; i < coordinates; ++i) {
+      if (i > 0) expect(",");
+      point.push_back(number(disjunction()));
+    }
+    expect(")");
+    if (coordinates == 2) point.push_back(literal(0));
+    const Operand result = emit(op, point[0], point[1], point[2]);
+    program_.code.back().object = object;
+    return {type, result};
+  }
+
+  Value in_light(Op op) {
+    expect("(");
+    return at_point(op, 0, 3, Type::number);
+  }
+
   Value built_in(std::string_view name) {
+    if (name == "inside") return at_point(Op::inside, object(names_.volumes), 3, Type::condition);
+    if (name == "distance") return at_point(Op::distance, object(names_.volumes), 3, Type::number);
+    if (name == "value") return at_point(Op::field, object(names_.fields), 2, Type::number);
+    if (name == "light" || name == "skylight") return in_light(name == "light" ? Op::light : Op::skylight);
     const std::vector<Value> values = arguments();
     if (name == "random" && values.empty()) {
       program_.draws = true;

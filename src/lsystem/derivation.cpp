@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "lsystem/plant_builder.h"
 #include "lsystem/queries.h"
 
 namespace espalier::lsystem {
@@ -45,6 +46,7 @@ Derivation::Derivation(const Grammar& grammar, const Limits& limits)
   }
   for (const ProductionTable& table : grammar.tables)
     table_conditions_.emplace_back(table.condition, std::span<const std::string>(), true, workshop_);
+  surroundings_.emplace(workshop_);
   productions_.emplace(grammar.productions, workshop_, limits);
   interpretations_.emplace(grammar.interpretations, workshop_, limits);
   axiom_ = axiom_production(grammar, workshop_.alphabet.intern("axiom", 0));
@@ -56,6 +58,7 @@ Derivation::Derivation(const Grammar& grammar, const Limits& limits)
 void Derivation::run_lua_code() {
   workshop_.lua.seal(false);
   for (const std::string& name : workshop_.grammar.names.globals) workshop_.lua.set_global(name, 0);
+  name_surroundings(workshop_.lua, workshop_.grammar.names);
   for (const LuaCode& code : workshop_.grammar.lua) workshop_.lua.run(code.text, code.label);
   workshop_.lua.seal(true);
 }
@@ -107,9 +110,15 @@ void Derivation::start(std::span<const double> parameters, Seed seed) {
   workshop_.lua.reset_instructions();
   run_lua_code();
   set_global(workshop_.globals.size() - 1, 0);
-  for (ConstantValue& constant : constants_)
+  surroundings_->clear();
+  const auto value_of = [&](BlockExpression& expression) { return evaluate(expression); };
+  for (std::size_t i = 0; i < constants_.size(); ++i) {
+    surroundings_->make_after(i, value_of);
+    ConstantValue& constant = constants_[i];
     set_global(constant.global,
                constant.parameter ? parameters[*constant.parameter] : evaluate(*constant.value));
+  }
+  surroundings_->make_after(constants_.size(), value_of);
   workshop_.lua.call_hook("on_start", {});
   evaluate_settings();
   write_axiom();
@@ -127,6 +136,7 @@ void Derivation::finish_step() {
   modules_written_ += string_.size();
   cut_branches();
   fill_queries();
+  if (workshop_.grammar.uses_light) update_light();
 }
 
 void Derivation::step() {
@@ -186,6 +196,36 @@ const ModuleString& Derivation::interpreted() {
       string_, child_key(root_key(seed_), kInterpretationPlace + static_cast<std::uint64_t>(step_)),
       std::vector<bool>(table_conditions_.size(), true), drawn_);
   return drawn_;
+}
+
+VolumePtr Derivation::volume(const std::string& name) const {
+  const auto& names = workshop_.grammar.names.volumes;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw_input_error("{}: got volume '{}', expected {}", workshop_.grammar.name, name,
+                      names.empty() ? "none: the L-system declares no volumes"
+                                    : fmt::format("one of: {}", fmt::join(names, ", ")));
+  return workshop_.surroundings.volumes[static_cast<std::size_t>(found - names.begin())];
+}
+
+Vec3 Derivation::towards_sun() const {
+  if (!workshop_.grammar.has_sun) return {0, 0, 1};
+  const auto& names = workshop_.grammar.names.globals;
+  const auto of = [&](const char* name) {
+    return static_cast<float>(
+        workshop_
+            .globals[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())]);
+  };
+  return {of("sun_x"), of("sun_y"), of("sun_z")};
+}
+
+/// The plant as it is now shades itself in the next step.
+void Derivation::update_light() {
+  constexpr double kGap = 0.3;  // of a segment
+  shading_plant_.clear();
+  build_plant(interpreted(), workshop_.alphabet, settings_, shading_plant_);
+  workshop_.surroundings.set_light(shading_plant_, settings_.unit_m, towards_sun(), kGap * settings_.length,
+                                   workshop_.grammar.shades);
 }
 
 void Derivation::fill_queries() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lsystem/limits.h"
+#include "lsystem/place_surroundings.h"
 #include "lsystem/rewriter.h"
 #include "lsystem/settings.h"
 
@@ -19,6 +20,11 @@ class Derivation {
   explicit Derivation(const Grammar& grammar, const Limits& limits = {});
 
   void set_limits(const Limits& limits);
+  /// From the next start on, the volume of this name is `volume`, in units, whatever the file says; null: as
+  /// the file says. Throws InputError where the file has no volume of that name.
+  void replace_volume(const std::string& name, VolumePtr volume) {
+    surroundings_->replace(name, std::move(volume));
+  }
   /// Back to the axiom. `parameters` follow grammar.parameters.
   void start(std::span<const double> parameters, Seed seed);
   void start(Seed seed) { start(workshop_.grammar.parameters.defaults(), seed); }
@@ -32,6 +38,8 @@ class Derivation {
   std::string text() const { return to_text(string_, workshop_.alphabet); }
   const SymbolTable& alphabet() const { return workshop_.alphabet; }
   const Settings& settings() const { return settings_; }
+  /// The volume of this name in the derivation that was started last, in units. Throws InputError for none.
+  VolumePtr volume(const std::string& name) const;
   /// The string as it is drawn: after the interpretation rules. Valid until the next call.
   const ModuleString& interpreted();
   /// Modules written by all steps so far.
@@ -58,16 +66,20 @@ class Derivation {
   void finish_step();
   void cut_branches();
   void fill_queries();
+  void update_light();
+  Vec3 towards_sun() const;
 
   Workshop workshop_;
   Limits limits_;
   std::vector<ConstantValue> constants_;
   std::vector<SettingValue> setting_values_;
+  std::optional<SurroundingsMaker> surroundings_;
   std::vector<BlockExpression> table_conditions_;
   std::optional<Rewriter> productions_, interpretations_;
   std::vector<Production> axiom_;  ///< one production whose successor is the axiom
   std::optional<Rewriter> axiom_rewriter_;
   ModuleString string_, next_, drawn_;
+  Plant shading_plant_;
   Settings settings_;
   Seed seed_ = 0;
   int step_ = 0;

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/parameter_table.h"
+#include "environment/picture_field.h"
+#include "environment/volume_tree.h"
 #include "lsystem/program.h"
 #include "lsystem/source.h"
 #include "lsystem/symbols.h"
@@ -66,6 +68,22 @@ struct Setting {
   std::vector<Expression> values;
 };
 
+/// volume clip = union(box(0,0,6, 12,12,12), …): the numbers are expressions of constants and parameters.
+struct VolumeDeclaration {
+  std::string name;
+  VolumeTree tree;
+  Position position;                 ///< where the tree's text starts
+  std::size_t constants_before = 0;  ///< how many constants its numbers may use
+};
+
+/// field soil = picture("soil.png", x, y, width): its middle and its extent along x, in units.
+struct FieldDeclaration {
+  std::string name;
+  std::shared_ptr<const PictureField> picture;
+  std::vector<Expression> frame;
+  std::size_t constants_before = 0;
+};
+
 struct LuaCode {
   std::string text;  ///< with line breaks before it, so that Lua counts lines as the file does
   std::string label;
@@ -87,12 +105,19 @@ struct Grammar {
   std::vector<std::string> ignored, considered;  ///< names of symbols, for contexts
   bool has_considered = false;                   ///< then only those count
   bool follow_branches = false;                  ///< right contexts look into branches too
+  std::vector<VolumeDeclaration> volumes;
+  std::vector<FieldDeclaration> fields;
+  std::vector<std::size_t> shades;  ///< volumes that keep light away
+  bool has_sun = false;             ///< then sun_x, sun_y and sun_z are constants
+  bool uses_light = false;
 };
 
 /// Reads a file and what it includes. Throws InputError with file, line, column, got and expected.
 Grammar read_grammar(const std::string& path);
 
-/// Reads an L-system from text; messages call it `label`. Includes are refused.
-Grammar parse_grammar(const std::string& text, const std::string& label);
+/// Reads an L-system from text; messages call it `label`. Includes are refused; so are meshes and pictures
+/// without a folder.
+Grammar parse_grammar(const std::string& text, const std::string& label,
+                      const std::filesystem::path& folder = {});
 
 }  // namespace espalier::lsystem

@@ -53,6 +53,7 @@ class LsystemModel : public Model {
     GrowthResult result;
     try {
       derivation->set_limits(limits_of(growth.budget));
+      prune(*derivation, growth.prune_to, values.back());
       derivation->start(values.first(grammar_.parameters.rows.size()), seed);
       derivation->run(derivation->settings().steps);
       Settings settings = derivation->settings();
@@ -70,6 +71,22 @@ class LsystemModel : public Model {
   }
 
  private:
+  /// What plants are pruned to stands for the volume "clip" of the file.
+  void prune(Derivation& derivation, const Volume* volume, double unit_m) const {
+    constexpr const char* kClip = "clip";
+    const auto& names = grammar_.names.volumes;
+    if (std::find(names.begin(), names.end(), kClip) == names.end()) {
+      if (volume)
+        throw_input_error(
+            "{}: got a volume to prune to, expected none: the L-system declares no volume 'clip'",
+            table_.model);
+      return;
+    }
+    derivation.replace_volume(
+        kClip, volume ? make_scaled(static_cast<float>(1 / unit_m), VolumePtr(volume, [](const Volume*) {}))
+                      : nullptr);
+  }
+
   /// A derivation that no other thread uses: they hold Lua states, which are no shared things. Which one it
   /// is makes no difference to the plant.
   std::unique_ptr<Derivation> take_idle() const {

@@ -11,6 +11,7 @@
 #include "lsystem/grammar.h"
 #include "lsystem/parse_modules.h"
 #include "lsystem/parse_production.h"
+#include "lsystem/parse_surroundings.h"
 #include "lsystem/settings.h"
 #include "lsystem/statements.h"
 
@@ -50,6 +51,7 @@ class Parser {
   void parse(std::shared_ptr<const Source> source, bool may_include) {
     const FileText file = split_statements(std::move(source));
     declare_symbols(file);
+    grammar_.uses_light |= file.clean.find("light(") != std::string::npos;  // skylight( too
     for (const Statement& statement : file.statements) {
       Cursor cursor(file, statement.begin, statement.end);
       parse_statement(cursor, may_include);
@@ -86,6 +88,10 @@ class Parser {
         {"const ", &Parser::parse_constants},
         {"param ", &Parser::parse_parameter},
         {"let ", &Parser::parse_let},
+        {"volume ", &Parser::parse_volume},
+        {"field ", &Parser::parse_field},
+        {"sun:", &Parser::parse_the_sun},
+        {"shade:", &Parser::parse_the_shades},
         {"table ", &Parser::open_table}};
     for (const auto& [keyword, handler] : kHandlers)
       if (cursor.rest().starts_with(keyword)) {
@@ -254,6 +260,17 @@ class Parser {
     grammar_.lua.push_back({lua_code(cursor, body.position.offset, code), cursor.position().source->label});
   }
 
+  void parse_volume(Cursor& cursor) { parse_volume_declaration(cursor, new_name(cursor), grammar_); }
+  void parse_field(Cursor& cursor) { parse_field_declaration(cursor, new_name(cursor), grammar_); }
+  void parse_the_shades(Cursor& cursor) { parse_shades(cursor, grammar_); }
+  void parse_the_sun(Cursor& cursor) {
+    const Position position = cursor.position();
+    for (const char* name : {"sun_x", "sun_y", "sun_z"})
+      if (!taken_.insert(name).second)
+        throw_at(position, "got the name '{}' before, expected it for the sun", name);
+    parse_sun(cursor, grammar_);
+  }
+
   void parse_include(Cursor& cursor, bool may_include) {
     cursor.take("include");
     cursor.skip_space();
@@ -321,9 +338,9 @@ Grammar read_grammar(const std::string& path) {
   return parse_source(source, file.stem().string(), true);
 }
 
-Grammar parse_grammar(const std::string& text, const std::string& label) {
-  return parse_source(std::make_shared<Source>(Source{label, {}, text}), fs::path(label).stem().string(),
-                      false);
+Grammar parse_grammar(const std::string& text, const std::string& label, const fs::path& folder) {
+  return parse_source(std::make_shared<Source>(Source{label, folder, text, !folder.empty()}),
+                      fs::path(label).stem().string(), false);
 }
 
 }  // namespace espalier::lsystem

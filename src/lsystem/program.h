@@ -16,6 +16,8 @@
 
 namespace espalier::lsystem {
 
+class Surroundings;  // surroundings.h
+
 /// How many modules are evaluated together.
 inline constexpr std::size_t kBlockSize = 512;
 
@@ -46,7 +48,12 @@ enum class Op : std::uint8_t {
   tan,
   exp,
   log,
-  random
+  random,
+  inside,
+  distance,
+  field,
+  light,
+  skylight
 };
 
 struct Operand {
@@ -58,6 +65,7 @@ struct Instruction {
   Op op = Op::add;
   std::uint16_t target = 0;  ///< a temporary
   Operand a, b, c;
+  std::uint16_t object = 0;  ///< a volume or a field
 };
 
 struct Program {
@@ -80,6 +88,7 @@ struct LetFunction {
 struct Names {
   std::vector<std::string> globals;  ///< constants and parameters in order, then "step"
   std::vector<LetFunction> functions;
+  std::vector<std::string> volumes, fields;     ///< in order
   std::set<std::string, std::less<>> from_lua;  ///< given by the file's Lua code: not plain arithmetic
 };
 
@@ -101,6 +110,7 @@ struct ProgramInputs {
   const double* globals = nullptr;
   const RandomKey* keys = nullptr;  ///< a key per module, for random()
   std::size_t count = 0;            ///< at most kBlockSize
+  const Surroundings* surroundings = nullptr;
 };
 
 /// Runs the program. The result lies in `scratch`, among the inputs, or in the program.

@@ -9,6 +9,7 @@
 
 #include "lsystem/context.h"
 #include "lsystem/lua_functions.h"
+#include "lsystem/lua_surroundings.h"
 
 namespace espalier::lsystem {
 
@@ -18,11 +19,14 @@ struct Workshop {
   SymbolTable alphabet;
   LuaState lua;
   LuaFunctions functions;
+  Surroundings surroundings;
   std::vector<double> globals;     ///< values of Names::globals
   std::uint32_t random_sites = 1;  ///< 0 is the choice between stochastic productions
 
   Workshop(const Grammar& file, const Limits& limits)
-      : grammar(file), alphabet(file.alphabet), lua(limits), functions(lua, file, alphabet) {}
+      : grammar(file), alphabet(file.alphabet), lua(limits), functions(lua, file, alphabet) {
+    add_surroundings(lua, surroundings);
+  }
 };
 
 /// An expression ready to be computed for a block of modules.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lsystem/program.h"
+#include "lsystem/surroundings.h"
 
 namespace espalier::lsystem {
 
@@ -14,6 +15,8 @@ struct Arguments {
   const RandomKey* keys;
   double* target;
   std::size_t count;
+  const Surroundings* surroundings = nullptr;
+  std::size_t object = 0;
 };
 
 using Run = void (*)(const Arguments&);
@@ -60,8 +63,14 @@ void run_random(const Arguments& in) {
   for (std::size_t i = 0; i < in.count; ++i) in.target[i] = random_unit(in.keys[i], site);
 }
 
+template <auto kMember>
+void at_points(const Arguments& in) {
+  for (std::size_t i = 0; i < in.count; ++i)
+    in.target[i] = static_cast<double>((in.surroundings->*kMember)(in.object, {in.a[i], in.b[i], in.c[i]}));
+}
+
 /// In the order of Op.
-constexpr std::array<Run, 27> kRuns{
+constexpr std::array<Run, 32> kRuns{
     binary<[](double a, double b) { return a + b; }>,
     binary<[](double a, double b) { return a - b; }>,
     binary<[](double a, double b) { return a * b; }>,
@@ -89,6 +98,11 @@ constexpr std::array<Run, 27> kRuns{
     unary<[](double a) { return std::exp(a); }>,
     unary<[](double a) { return std::log(a); }>,
     run_random,
+    at_points<&Surroundings::inside>,
+    at_points<&Surroundings::distance>,
+    at_points<&Surroundings::field>,
+    at_points<&Surroundings::light>,
+    at_points<&Surroundings::skylight>,
 };
 
 class Runner {
@@ -114,7 +128,8 @@ class Runner {
 
   void run(const Instruction& instruction) {
     Arguments in{
-        column(instruction.a), column(instruction.b), column(instruction.c), inputs_.keys, nullptr, 0};
+        column(instruction.a), column(instruction.b), column(instruction.c), inputs_.keys, nullptr, 0,
+        inputs_.surroundings,  instruction.object};
     const bool varies = in.a.stride + in.b.stride + in.c.stride > 0 || instruction.op == Op::random;
     in.count = varies ? inputs_.count : 1;
     in.target = scratch_.data() + instruction.target * kBlockSize;

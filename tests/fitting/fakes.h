@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/error.h"
 #include "fitting/fit_task.h"
 #include "fitting/scorer.h"
 #include "plant/model.h"
@@ -54,6 +55,7 @@ class PoleModel : public Model {
   GrowthResult generate(std::span<const double> values, Seed seed, const GrowthSettings&,
                         Plant& plant) const override {
     if (values[0] == 13) throw std::runtime_error("thirteen metres");
+    if (values[0] == 14) throw InputError("fourteen metres");
     const auto height = static_cast<float>(values[0]) * (1 + 0.1f * static_cast<float>(seed % 5));
     const float radius = height * static_cast<float>(values[1]);
     plant.clear();

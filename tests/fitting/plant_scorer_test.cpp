@@ -82,5 +82,24 @@ TEST(PlantScorer, ReportsAFailureOfTheModelFromAnyThread) {
   EXPECT_THROW(scores_of(pole_task(model), poles, 2), std::runtime_error);
 }
 
+TEST(PlantScorer, OnceForgivingACandidateThatFailsIsTheWorstAndTheFirstReasonIsKept) {
+  const PoleModel model;
+  const FitTask task = pole_task(model, {1, 2});
+  auto poles = some_poles();
+  poles[3][0] = poles[17][0] = 14;
+  PlantScorer scorer(task, 2);
+  std::vector<double> scores(poles.size());
+  EXPECT_THROW(scorer.score(poles, scores), InputError);
+  EXPECT_EQ(scorer.failures().count, 0);
+  scorer.forgive_failures();
+  scorer.score(poles, scores);
+  for (std::size_t i = 0; i < scores.size(); ++i) EXPECT_EQ(scores[i] == kFailedCandidate, i == 3 || i == 17);
+  EXPECT_GT(kFailedCandidate, over_budget_penalty(1e300));
+  EXPECT_EQ(scorer.failures().count, 2);
+  EXPECT_EQ(scorer.failures().first, "fourteen metres");
+  poles[5][0] = 13;  // no bad input, but a failure of the program
+  EXPECT_THROW(scorer.score(poles, scores), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace espalier

@@ -32,21 +32,45 @@ Strings branches(const std::string& string, const std::string& opening) {
   return found;
 }
 
-// [Topiary, Fig. 4]: the axis is out of the box; it and its last internode go and S is there; S has woken
-// the bud; the branch's apex goes, and then S is there again.
+// [Topiary, §3], the text on L-system 4: "In derivation step 6 the apex of the main axis grows out of the clipping
+// box. In step 7 this apex and the last internode are removed from the structure, and the bud-activating signal S
+// is generated. […] a lateral branch is created in step 8. As it also extends beyond the bounding box, it is
+// removed in step 9 […]. Signal S is generated again, and in step 10 it reaches a dormant bud."
 TEST(PaperModels, PruningSignalsWakeTheBudBelow) {
   const Strings strings = strings_of(load_grammar("topiary_4"), 12);
   const auto segments = [&](std::size_t step) { return count(strings[step], "F"); };
-  EXPECT_EQ(count(strings[6], "T"), 1u);
-  EXPECT_EQ(count(strings[7], "S"), 1u);
-  EXPECT_EQ(segments(7), segments(6) - 1);
+  for (std::size_t step = 0; step < 6; ++step) EXPECT_EQ(count(strings[step], fmt::format("?P(0,{})", step + 1)), 1u);
+  EXPECT_EQ(count(strings[6], "A?P(0,7)"), 1u);  // the box ends at 6
   EXPECT_EQ(count(strings[7], "A"), 0u);
-  EXPECT_EQ(count(strings[8], "[+FA"), 1u);
+  EXPECT_EQ(segments(7), segments(6) - 1);
+  EXPECT_EQ(count(strings[7], "@oS"), 1u);
+  EXPECT_EQ(count(strings[8], "[+FA?P("), 1u);
   EXPECT_EQ(count(strings[8], "@o"), count(strings[7], "@o") - 1);
   EXPECT_EQ(count(strings[9], "A"), 0u);
-  EXPECT_EQ(count(strings[10], "[+S]"), 1u);
-  EXPECT_EQ(count(strings[11], "@oSF"), 1u);
-  EXPECT_EQ(count(strings[12], "[+FA"), 1u);
+  EXPECT_EQ(count(strings[9], "[+S]"), 1u);
+  EXPECT_EQ(count(strings[10], "@oSF"), 1u);
+  EXPECT_EQ(count(strings[11], "[+FA"), 1u);
+}
+
+// The listing as it is printed has the signal T between: from the apex that is out to S it takes two steps
+// where the text has one, so no size of the box gives the text's steps.
+TEST(PaperModels, ThePrintedListingIsLateByAStepAtEachCut) {
+  for (int box = 3; box < 9; ++box) {
+    const Strings strings = strings_of(
+        fmt::format("angle: 60\nlet prune(x, y) = x < -{0}/2 or x > {0}/2 or y < 0 or y > {0}\nignore: + - /\n"
+                    "branches: follow\naxiom: FA?P(x,y)\nproductions:\n"
+                    "  A > ?P(x,y) : not prune(x, y) --> @oF/(180)A\n  A > ?P(x,y) : prune(x, y) --> T%\n"
+                    "  F > T --> S\n  F > S --> SF\n  S --> *\n  @o > S --> [+FA?P(x,y)]\n  T --> *\n", box), 14);
+    const auto first = [&](const std::string& part) {
+      std::size_t step = 0;
+      while (count(strings[step], part) == 0) ++step;
+      return static_cast<int>(step);
+    };
+    EXPECT_EQ(first(fmt::format("A?P(0,{})", box + 1)), box);
+    EXPECT_EQ(first("S"), box + 2);
+    EXPECT_EQ(first("[+F"), box + 3);
+    EXPECT_EQ(first("@oSF"), box + 6);
+  }
 }
 
 // [Topiary, Eq. 1]: N(k+1) = N(k)·(1 + (2k+1)/k²), at most twice: 1, 2, 4, then 4k²/9.

@@ -293,7 +293,8 @@ TEST(Growth, TheEstimateIsWithinAFactorOfTwo) {
 TEST(Pruning, NoStemLeavesTheVolumeAboveTheBase) {
   class Ball : public Volume {
    public:
-    bool contains(Vec3 p) const override { return length(p - Vec3{0, 0, 7}) < 4; }
+    bool contains(Vec3 p) const override { return signed_distance_m(p) < 0; }
+    float signed_distance_m(Vec3 p) const override { return length(p - Vec3{0, 0, 7}) - 4; }
   };
   const Ball ball;
   GrowthSettings settings;
