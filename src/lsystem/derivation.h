@@ -32,8 +32,9 @@ class Derivation {
   std::string text() const { return to_text(string_, workshop_.alphabet); }
   const SymbolTable& alphabet() const { return workshop_.alphabet; }
   const Settings& settings() const { return settings_; }
-  /// The string as it is drawn: after the interpretation rules. Valid until the next call.
-  const ModuleString& interpreted();
+  /// The string as it is drawn: after the interpretation rules, in which `fraction` (0 to below 1) is how
+  /// much of the time to the next step has passed. Valid until the next call.
+  const ModuleString& interpreted(double fraction = 0);
   /// Modules written by all steps so far.
   std::size_t modules_written() const { return modules_written_; }
   /// Memory of the current string and the one before it.
@@ -68,6 +69,7 @@ class Derivation {
   std::vector<Production> axiom_;  ///< one production whose successor is the axiom
   std::optional<Rewriter> axiom_rewriter_;
   ModuleString string_, next_, drawn_;
+  std::optional<std::size_t> fraction_global_;  ///< none where the file has another meaning for the name
   Settings settings_;
   Seed seed_ = 0;
   int step_ = 0;

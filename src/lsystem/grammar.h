@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/parameter_table.h"
+#include "lsystem/appearance.h"
 #include "lsystem/program.h"
 #include "lsystem/source.h"
 #include "lsystem/symbols.h"
@@ -86,7 +87,8 @@ struct Grammar {
   std::vector<Production> productions, interpretations;
   std::vector<std::string> ignored, considered;  ///< names of symbols, for contexts
   bool has_considered = false;                   ///< then only those count
-  bool follow_branches = false;                  ///< right contexts look into branches too
+  std::shared_ptr<const Appearance> appearance;
+  bool follow_branches = false;  ///< right contexts look into branches too
 };
 
 /// Reads a file and what it includes. Throws InputError with file, line, column, got and expected.

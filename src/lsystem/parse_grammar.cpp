@@ -13,6 +13,7 @@
 #include "lsystem/parse_production.h"
 #include "lsystem/settings.h"
 #include "lsystem/statements.h"
+#include "lsystem/surfaces.h"
 
 namespace espalier::lsystem {
 
@@ -45,7 +46,7 @@ void collect_assigned(std::string_view code, std::set<std::string, std::less<>>&
 
 class Parser {
  public:
-  explicit Parser(Grammar& grammar) : grammar_(grammar) {}
+  explicit Parser(Grammar& grammar) : grammar_(grammar) { grammar.appearance = appearance_; }
 
   void parse(std::shared_ptr<const Source> source, bool may_include) {
     const FileText file = split_statements(std::move(source));
@@ -57,6 +58,9 @@ class Parser {
   }
 
   void finish(const std::shared_ptr<const Source>& source) {
+    if (appearance_->colors.empty()) appearance_->colors = default_colors();
+    if (!taken_.contains("fraction") && !grammar_.names.from_lua.contains("fraction"))
+      grammar_.names.globals.push_back("fraction");
     grammar_.names.globals.push_back("step");
     if (!grammar_.axiom_position) throw_at({source, 0}, "got no axiom, expected a line 'axiom: …'");
   }
@@ -77,6 +81,7 @@ class Parser {
     static const std::map<std::string, Handler, std::less<>> kHandlers{
         {"axiom:", &Parser::parse_axiom},
         {"symbols:", &Parser::skip},
+        {"colors:", &Parser::parse_colors},
         {"ignore:", &Parser::parse_ignored},
         {"consider:", &Parser::parse_considered},
         {"productions:", &Parser::open_productions},
@@ -92,6 +97,7 @@ class Parser {
         cursor.go_to(cursor.at() + keyword.size());
         return (this->*handler)(cursor);
       }
+    if (cursor.rest().starts_with("surface ")) return parse_surface(cursor, may_include);
     if (cursor.rest().starts_with("include ")) return parse_include(cursor, may_include);
     if (!parse_setting(cursor)) read_production(cursor);
   }
@@ -254,14 +260,56 @@ class Parser {
     grammar_.lua.push_back({lua_code(cursor, body.position.offset, code), cursor.position().source->label});
   }
 
+  /// colors: 8b5a2b 2e7d32 …
+  void parse_colors(Cursor& cursor) {
+    if (!appearance_->colors.empty())
+      throw_at(cursor.position(), "got a second table of colours, expected one");
+    while (!cursor.at_end()) {
+      cursor.take("#");
+      const Position position = cursor.position();
+      const std::string word = cursor.expect_word("a colour of six hexadecimal digits");
+      if (word.size() != 6 || word.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
+        throw_at(position, "got '{}', expected a colour of six hexadecimal digits", word);
+      const auto value = static_cast<unsigned>(std::stoul(word, nullptr, 16));
+      const auto byte = [](unsigned bits) { return static_cast<std::uint8_t>(bits & 0xff); };
+      appearance_->colors.push_back({byte(value >> 16), byte(value >> 8), byte(value), true});
+    }
+    if (appearance_->colors.empty()) cursor.fail("colours of six hexadecimal digits");
+  }
+
+  /// "name" of a file.
+  static std::string parse_file_name(Cursor& cursor) {
+    cursor.expect("\"");
+    const std::size_t end = cursor.rest().find('"');
+    if (end == std::string_view::npos) cursor.fail("'\"' after the file's name");
+    std::string name(cursor.rest().substr(0, end));
+    cursor.go_to(cursor.at() + end + 1);
+    return name;
+  }
+
+  /// surface petal = "petal.patch"
+  void parse_surface(Cursor& cursor, bool may_read_files) {
+    cursor.take("surface");
+    cursor.skip_space();
+    const Position start = cursor.position();
+    NamedSurface surface{cursor.expect_word("the name of a surface"), {}};
+    for (const NamedSurface& other : appearance_->surfaces)
+      if (other.name == surface.name)
+        throw_at(start, "got surface '{}' a second time, expected another name", surface.name);
+    cursor.expect("=");
+    cursor.skip_space();
+    const Position position = cursor.position();
+    const std::string file = parse_file_name(cursor);
+    if (!cursor.at_end()) cursor.fail("the end of the line");
+    surface.triangles = read_surface(file, may_read_files, position);
+    appearance_->surfaces.push_back(std::move(surface));
+  }
+
   void parse_include(Cursor& cursor, bool may_include) {
     cursor.take("include");
     cursor.skip_space();
     const Position position = cursor.position();
-    cursor.expect("\"");
-    const std::size_t end = cursor.rest().find('"');
-    if (end == std::string_view::npos) cursor.fail("'\"' after the file's name");
-    const std::string name(cursor.rest().substr(0, end));
+    const std::string name = parse_file_name(cursor);
     if (!may_include) throw_at(position, "got an include, expected none in an L-system that is no file");
     // A file from a stranger must not show what else is on the disk.
     if (name.find('/') != std::string::npos || name.find('\\') != std::string::npos ||
@@ -299,6 +347,7 @@ class Parser {
   }
 
   Grammar& grammar_;
+  std::shared_ptr<Appearance> appearance_ = std::make_shared<Appearance>();
   std::vector<Production>* section_ = nullptr;
   int table_ = -1;
   std::set<std::string> taken_, included_;
