@@ -267,9 +267,11 @@ class Parser {
     while (!cursor.at_end()) {
       cursor.take("#");
       const Position position = cursor.position();
-      const std::string word = cursor.expect_word("a colour of six hexadecimal digits");
+      const std::string_view rest = cursor.rest();
+      const std::string word(rest.substr(0, std::min(rest.find_first_of(" \t\r\n#"), rest.size())));
       if (word.size() != 6 || word.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
-        throw_at(position, "got '{}', expected a colour of six hexadecimal digits", word);
+        throw_at(position, "got '{}', expected a colour of six hexadecimal digits", word.substr(0, 40));
+      cursor.go_to(cursor.at() + word.size());
       const auto value = static_cast<unsigned>(std::stoul(word, nullptr, 16));
       const auto byte = [](unsigned bits) { return static_cast<std::uint8_t>(bits & 0xff); };
       appearance_->colors.push_back({byte(value >> 16), byte(value >> 8), byte(value), true});

@@ -26,7 +26,9 @@ class Builder : public SilentVisitor {
       : unit_(static_cast<float>(settings.unit_m)),
         settings_(settings),
         plant_(plant),
-        has_frames_(has_frames) {}
+        has_frames_(has_frames) {
+    if (has_frames) axis_.node = frames_.add_node(-1, {0, 0, 0});
+  }
 
   void begin_segment(const Turtle& turtle, const Step& step) {
     if (!polygons_.empty()) return;
@@ -66,7 +68,7 @@ class Builder : public SilentVisitor {
       case Command::polygon_close:
         return close_polygon(turtle, step);
       case Command::open_edge:
-        return frames_.open_edge(label_of(step), node_here(turtle));
+        return frames_.open_edge(label_of(step), axis_.node);
       case Command::close_edge:
         return close_edge(turtle, step);
       case Command::vertex:
@@ -191,18 +193,13 @@ class Builder : public SilentVisitor {
   void move_on(const Turtle& turtle) {
     if (has_frames_) axis_.node = frames_.add_node(axis_.node, point(turtle.position));
   }
-  /// The node where the turtle is; the first one where it has not moved yet.
-  Frames::Node node_here(const Turtle& turtle) {
-    if (axis_.node < 0) axis_.node = frames_.add_node(-1, point(turtle.position));
-    return axis_.node;
-  }
   static int label_of(const Step& step) {
     return static_cast<int>(std::clamp(step.value_or(0, 0), -1e9, 1e9));
   }
   void close_edge(const Turtle& turtle, const Step& step) {
     std::vector<Vec3> outline;
     try {
-      outline = frames_.close_edge(label_of(step), node_here(turtle));
+      outline = frames_.close_edge(label_of(step), axis_.node);
     } catch (const InputError& error) {
       throw_input_error("module {} of the string: {}", step.module, error.what());
     }

@@ -102,7 +102,8 @@ TEST(Patches, FaultsNameTheirLine) {
     return message_of([&] { read_patches(text, "bad.patch"); });
   };
   EXPECT_EQ(message(""), "bad.patch:1: got the end of the file, expected 'patch'");
-  EXPECT_EQ(message("# only\n\nspline\n"), "bad.patch:3: got 'spline', expected 'patch', at most 100 of them");
+  EXPECT_EQ(message("# only\n\nspline\n"),
+            "bad.patch:3: got 'spline', expected 'patch', at most 100 of them");
   EXPECT_THAT(message("patch\n1 2 3\n4 x 6\n"), HasSubstr("bad.patch:3: got 'x', expected 48 numbers"));
   EXPECT_THAT(message("patch 1 2 3"), HasSubstr("bad.patch:1: got the end of the file"));
   EXPECT_THAT(message("patch 1 nan"), HasSubstr("got 'nan'"));
@@ -114,9 +115,9 @@ TEST_F(SurfaceFiles, PatchesArePlacedAndScaled) {
   const Plant plant = plant_of(grammar_with("own.patch"));
   EXPECT_NEAR(area_of(plant), 9 * 4, 1e-3);  // scale 3, 2 m a unit
   const Bounds box = bounds(plant);
-  EXPECT_NEAR(box.lower.z, 0, 1e-5);       // the foot of the segment
-  EXPECT_NEAR(box.upper.z, 2 + 6, 1e-4);   // y of the surface is the heading
-  EXPECT_NEAR(box.upper.x, 6, 1e-4);       // x is to the right
+  EXPECT_NEAR(box.lower.z, 0, 1e-5);      // the foot of the segment
+  EXPECT_NEAR(box.upper.z, 2 + 6, 1e-4);  // y of the surface is the heading
+  EXPECT_NEAR(box.upper.x, 6, 1e-4);      // x is to the right
 }
 
 TEST_F(SurfaceFiles, MeshesAreReadByAssimp) {
@@ -143,7 +144,8 @@ TEST(Surfaces, TextsThatAreNoFilesReadNone) {
   EXPECT_THAT(message_of([] { parse_grammar("surface p = \"other.patch\"\naxiom: A\n", "x.lsys"); }),
               HasSubstr("x.lsys:1:13: got surface \"other.patch\", expected a bundled .patch file"));
   EXPECT_THAT(message_of([] {
-                parse_grammar("surface p = \"petal.patch\"\nsurface p = \"petal.patch\"\naxiom: A\n", "x.lsys");
+                parse_grammar("surface p = \"petal.patch\"\nsurface p = \"petal.patch\"\naxiom: A\n",
+                              "x.lsys");
               }),
               HasSubstr("x.lsys:2:9: got surface 'p' a second time"));
 }
@@ -155,8 +157,7 @@ TEST(Surfaces, OutlinesOfTheParametricModelHaveNames) {
     for (const auto& [a, b, c] : outline.triangles)
       expected += 0.5 * length(cross(outline.vertices[b] - outline.vertices[a],
                                      outline.vertices[c] - outline.vertices[a]));
-    const Plant plant =
-        plant_of(fmt::format("leaf_length: 2\nleaf_width: 3\naxiom: ~(\"{}\",0.5)\n", name));
+    const Plant plant = plant_of(fmt::format("leaf_length: 2\nleaf_width: 3\naxiom: ~(\"{}\",0.5)\n", name));
     EXPECT_NEAR(area_of(plant), expected * 0.5 * 0.5 * 2 * 3, 1e-4) << name;
   }
   EXPECT_GT(plant_of("axiom: ~(\"magnolia\")\n").leaves.size(), 10u);
@@ -201,8 +202,8 @@ TEST(Frames, AnEdgeNeedsItsStart) {
 constexpr PartColor kRed{255, 0, 0, true}, kGreen{0, 128, 0, true};
 
 TEST(Colors, GoWithSegmentsLeavesAndSurfaces) {
-  const Plant plant = plant_of(
-      "colors: ff0000 008000\naxiom: F;F~(\"leaf\")[;F]F'~(\"leaf\"),(0)F;(1,0,0.2)F\n");
+  const Plant plant =
+      plant_of("colors: ff0000 008000\naxiom: F;F~(\"leaf\")[;F]F'~(\"leaf\"),(0)F;(1,0,0.2)F\n");
   const std::vector<PartColor> expected{{}, kRed, kRed, {}, {255, 0, 51, true}, {}, kGreen, {}};
   EXPECT_EQ(plant.knots.color, expected);  // knots of the axis, then of its branch
   EXPECT_EQ(plant.leaves.color, (std::vector<PartColor>{kRed, kGreen}));
@@ -230,7 +231,8 @@ TEST(Colors, StringsWithoutThemHaveNone) {
 
 TEST(Surfaces, PlantsOfManyTrianglesAreRefused) {
   const std::string many =
-      "surface p = \"petal.patch\"\naxiom: S\nproductions:\n S --> lua\n   for i = 1, 80000 do produce('Q') end\n"
+      "surface p = \"petal.patch\"\naxiom: S\nproductions:\n S --> lua\n   for i = 1, 80000 do produce('Q') "
+      "end\n"
       "interpretation:\n Q --> ~(\"p\")\n";
   EXPECT_THAT(message_of([&] { plant_of(many, 1); }), HasSubstr("more than 5000000 leaves and triangles"));
 }
