@@ -2,12 +2,12 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "app/commands.h"
+#include "app/growth_frames.h"
 #include "app/plant_options.h"
 #include "app/view_options.h"
 #include "core/error.h"
@@ -28,6 +28,7 @@ struct LsystemOptions {
   std::vector<std::string> assignments, volumes;
   bool print_string = false;
   std::optional<int> frames;
+  double frame_seconds = 0.1;
   std::string output;
   ViewOptions view;
   ShadedSettings shading;
@@ -67,43 +68,27 @@ Plant plant_of(lsystem::Derivation& derivation) {
   return plant;
 }
 
-/// "growth.png" becomes "growth_003.png".
-std::string frame_path(const std::string& path, int frame) {
-  const std::filesystem::path file = path;
-  return (file.parent_path() /
-          fmt::format("{}_{:03}{}", file.stem().string(), frame, file.extension().string()))
-      .string();
-}
-
-/// One picture a step, all as the camera of the last one sees them.
-void draw_frames(lsystem::Derivation& derivation, int steps, const LsystemOptions& options) {
-  std::vector<Plant> plants;
-  const int frames = *options.frames;
-  for (int frame = 0; frame < frames; ++frame) {
-    derivation.run(frames == 1 ? steps : frame * steps / (frames - 1));
-    plants.push_back(plant_of(derivation));
-  }
-  const Camera camera = camera_of(options.view, plants.back());
-  for (int frame = 0; frame < frames; ++frame)
-    draw(plants[static_cast<std::size_t>(frame)], camera, options, frame_path(options.output, frame));
-}
-
 /// CLI11 would read -1 as the largest number there is.
 std::string reject_negative(const std::string& text) {
   return text.starts_with('-') ? fmt::format("got {}, expected a whole number from 0", text) : "";
 }
 
+GrowthFrames frames_of(const LsystemOptions& options) {
+  return {options.frames.value_or(1), options.frame_seconds, options.output};
+}
+
 void check_options(const LsystemOptions& options) {
+  if (options.print_string && options.frames)
+    throw_input_error("got both --string and --frames, expected one of them");
   if (options.print_string == !options.output.empty())
     throw_input_error("got {} --string and -o, expected one of them",
                       options.print_string ? "both" : "neither");
   if (options.steps && *options.steps < 0)
     throw_input_error("--steps {}: expected 0 or more", *options.steps);
-  if (options.frames && (*options.frames < 1 || *options.frames > 1000))
-    throw_input_error("--frames {}: expected 1 to 1000", *options.frames);
+  if (options.frames) check_growth_frames(frames_of(options));
   if (options.print_string) return;
   check_view(options.view);
-  check_png_path(options.output);
+  if (!options.frames) check_png_path(options.output);
 }
 
 void run_lsystem(const LsystemOptions& options) {
@@ -117,7 +102,9 @@ void run_lsystem(const LsystemOptions& options) {
   for (const std::string& volume : options.volumes) replace_volume(volume, unit_m, derivation);
   if (!options.volumes.empty()) derivation.start(values, options.seed);
   const int steps = options.steps.value_or(derivation.settings().steps);
-  if (options.frames && !options.print_string) return draw_frames(derivation, steps, options);
+  if (options.frames)
+    return write_growth_frames(derivation, values, options.seed, steps, options.view, options.shading,
+                               frames_of(options));
   derivation.run(steps);
   if (options.print_string) return fmt::print("{}\n", derivation.text());
   const Plant plant = plant_of(derivation);
@@ -143,8 +130,11 @@ void add_lsystem_command(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_flag("--string", options->print_string, "print the string instead of drawing it");
   command->add_option("--frames", options->frames,
-                      "a growth sequence: this many pictures NAME_000.png, NAME_001.png, …");
-  command->add_option("-o,--output", options->output, "the PNG to write");
+                      "a growth sequence: an animated GIF of this many pictures, or for -o NAME.png "
+                      "NAME_000.png, NAME_001.png, …");
+  command->add_option("--frame-seconds", options->frame_seconds, "how long a GIF shows each picture")
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output, "the PNG to write; with --frames also a GIF");
   add_view_options(*command, options->view);
   command->add_flag("--ground", options->shading.ground,
                     "a lawn; needs an elevation above 0 or --perspective");

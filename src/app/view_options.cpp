@@ -1,9 +1,11 @@
 // Options of commands that draw one plant: size in pixels, view in degrees.
 #include "app/view_options.h"
 
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -94,9 +96,12 @@ void check_view(const ViewOptions& options) {
   checked_view(options);
 }
 
-void check_png_path(const std::string& path) {
+void check_png_path(const std::string& path) { check_picture_path(path, {".png"}); }
+
+void check_picture_path(const std::string& path, const std::vector<std::string>& extensions) {
   const std::filesystem::path file = path;
-  if (file.extension() != ".png") throw_input_error("--output {}: expected a name that ends in .png", path);
+  if (std::find(extensions.begin(), extensions.end(), file.extension()) == extensions.end())
+    throw_input_error("--output {}: expected a name that ends in {}", path, fmt::join(extensions, " or "));
   const std::filesystem::path directory = file.has_parent_path() ? file.parent_path() : ".";
   std::error_code error;
   if (!std::filesystem::is_directory(directory, error))

@@ -2,6 +2,7 @@
 // Shared by mask and render, so that both frame a plant alike.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "plant/plant.h"
 #include "render/camera.h"
@@ -39,5 +40,7 @@ void check_view(const ViewOptions& options);
 
 /// Throws InputError unless `path` ends in .png and lies in a directory that can be written.
 void check_png_path(const std::string& path);
+/// The same for other endings, such as ".gif".
+void check_picture_path(const std::string& path, const std::vector<std::string>& extensions);
 
 }  // namespace espalier

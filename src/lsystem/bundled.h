@@ -14,6 +14,9 @@ namespace espalier {
 /// The bundled L-systems, sorted by name.
 std::span<const EmbeddedFile> embedded_lsystems();
 
+/// The patches of bundled L-systems (src/lsystem/models/*.patch).
+std::span<const EmbeddedFile> embedded_surfaces();
+
 }  // namespace espalier
 
 namespace espalier::lsystem {

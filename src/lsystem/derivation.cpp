@@ -22,6 +22,11 @@ std::vector<Production> axiom_production(const Grammar& grammar, SymbolId start)
   return {production};
 }
 
+bool is_constant(const Grammar& grammar, std::string_view name) {
+  return std::any_of(grammar.constants.begin(), grammar.constants.end(),
+                     [&](const Constant& constant) { return constant.name == name; });
+}
+
 }  // namespace
 
 Derivation::Derivation(const Grammar& grammar, const Limits& limits)
@@ -29,6 +34,9 @@ Derivation::Derivation(const Grammar& grammar, const Limits& limits)
   const auto& names = grammar.names.globals;
   workshop_.functions.set_max_modules(limits.modules);
   workshop_.globals.assign(names.size(), 0);
+  if (const auto fraction = std::find(names.begin(), names.end(), "fraction");
+      fraction != names.end() && !is_constant(grammar, "fraction"))
+    fraction_global_ = static_cast<std::size_t>(fraction - names.begin());
   run_lua_code();
   for (const Constant& constant : grammar.constants) {
     ConstantValue value;
@@ -88,6 +96,7 @@ void Derivation::set_global(std::size_t global, double value) {
 
 void Derivation::evaluate_settings() {
   settings_ = {};
+  settings_.appearance = workshop_.grammar.appearance;
   for (SettingValue& entry : setting_values_) {
     const SettingInfo& info = *find_setting(entry.setting->name);
     SettingValues values{};
@@ -146,6 +155,7 @@ void Derivation::step() {
   ++step_;
   const double number = step_;
   set_global(workshop_.globals.size() - 1, number);
+  if (fraction_global_) set_global(*fraction_global_, 0);
   workshop_.lua.call_hook("on_step", std::span(&number, 1));
   std::vector<bool> table_is_on;
   for (BlockExpression& condition : table_conditions_) table_is_on.push_back(evaluate(condition) != 0);
@@ -190,8 +200,9 @@ void Derivation::cut_branches() {
   string_.values.truncate(static_cast<std::size_t>(kept_value - string_.values.data()));
 }
 
-const ModuleString& Derivation::interpreted() {
+const ModuleString& Derivation::interpreted(double fraction) {
   if (interpretations_->is_empty()) return string_;
+  if (fraction_global_) set_global(*fraction_global_, fraction);
   interpretations_->rewrite(
       string_, child_key(root_key(seed_), kInterpretationPlace + static_cast<std::uint64_t>(step_)),
       std::vector<bool>(table_conditions_.size(), true), drawn_);

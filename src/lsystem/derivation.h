@@ -40,8 +40,9 @@ class Derivation {
   const Settings& settings() const { return settings_; }
   /// The volume of this name in the derivation that was started last, in units. Throws InputError for none.
   VolumePtr volume(const std::string& name) const;
-  /// The string as it is drawn: after the interpretation rules. Valid until the next call.
-  const ModuleString& interpreted();
+  /// The string as it is drawn: after the interpretation rules, in which `fraction` (0 to below 1) is how
+  /// much of the time to the next step has passed. Valid until the next call.
+  const ModuleString& interpreted(double fraction = 0);
   /// Modules written by all steps so far.
   std::size_t modules_written() const { return modules_written_; }
   /// Memory of the current string and the one before it.
@@ -80,6 +81,7 @@ class Derivation {
   std::optional<Rewriter> axiom_rewriter_;
   ModuleString string_, next_, drawn_;
   Plant shading_plant_;
+  std::optional<std::size_t> fraction_global_;  ///< none where the file has another meaning for the name
   Settings settings_;
   Seed seed_ = 0;
   int step_ = 0;

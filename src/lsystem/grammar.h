@@ -11,6 +11,7 @@
 #include "core/parameter_table.h"
 #include "environment/picture_field.h"
 #include "environment/volume_tree.h"
+#include "lsystem/appearance.h"
 #include "lsystem/program.h"
 #include "lsystem/source.h"
 #include "lsystem/symbols.h"
@@ -104,12 +105,13 @@ struct Grammar {
   std::vector<Production> productions, interpretations;
   std::vector<std::string> ignored, considered;  ///< names of symbols, for contexts
   bool has_considered = false;                   ///< then only those count
-  bool follow_branches = false;                  ///< right contexts look into branches too
   std::vector<VolumeDeclaration> volumes;
   std::vector<FieldDeclaration> fields;
   std::vector<std::size_t> shades;  ///< volumes that keep light away
   bool has_sun = false;             ///< then sun_x, sun_y and sun_z are constants
   bool uses_light = false;
+  std::shared_ptr<const Appearance> appearance;
+  bool follow_branches = false;  ///< right contexts look into branches too
 };
 
 /// Reads a file and what it includes. Throws InputError with file, line, column, got and expected.

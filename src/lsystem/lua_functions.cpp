@@ -3,6 +3,8 @@
 #include <cmath>
 #include <lua.hpp>
 
+#include "lsystem/turtle_walk.h"
+
 namespace espalier::lsystem {
 
 namespace {
@@ -106,6 +108,7 @@ void LuaFunctions::append_modules(std::string_view text, std::size_t arity) {
     text.remove_prefix(length);
     if (name == "[") ++depth_;
     if (name == "]" && --depth_ < 0) throw_input_error("produce: got ']', expected a '[' before it");
+    check_arity(name, text.empty() ? arity : 0);
     out_->symbols.push_back(alphabet_.intern(name, text.empty() ? arity : 0));
   }
 }

@@ -14,6 +14,7 @@
 #include "lsystem/parse_surroundings.h"
 #include "lsystem/settings.h"
 #include "lsystem/statements.h"
+#include "lsystem/surfaces.h"
 
 namespace espalier::lsystem {
 
@@ -46,7 +47,7 @@ void collect_assigned(std::string_view code, std::set<std::string, std::less<>>&
 
 class Parser {
  public:
-  explicit Parser(Grammar& grammar) : grammar_(grammar) {}
+  explicit Parser(Grammar& grammar) : grammar_(grammar) { grammar.appearance = appearance_; }
 
   void parse(std::shared_ptr<const Source> source, bool may_include) {
     const FileText file = split_statements(std::move(source));
@@ -59,6 +60,9 @@ class Parser {
   }
 
   void finish(const std::shared_ptr<const Source>& source) {
+    if (appearance_->colors.empty()) appearance_->colors = default_colors();
+    if (!taken_.contains("fraction") && !grammar_.names.from_lua.contains("fraction"))
+      grammar_.names.globals.push_back("fraction");
     grammar_.names.globals.push_back("step");
     if (!grammar_.axiom_position) throw_at({source, 0}, "got no axiom, expected a line 'axiom: …'");
   }
@@ -79,6 +83,7 @@ class Parser {
     static const std::map<std::string, Handler, std::less<>> kHandlers{
         {"axiom:", &Parser::parse_axiom},
         {"symbols:", &Parser::skip},
+        {"colors:", &Parser::parse_colors},
         {"ignore:", &Parser::parse_ignored},
         {"consider:", &Parser::parse_considered},
         {"productions:", &Parser::open_productions},
@@ -98,6 +103,7 @@ class Parser {
         cursor.go_to(cursor.at() + keyword.size());
         return (this->*handler)(cursor);
       }
+    if (cursor.rest().starts_with("surface ")) return parse_surface(cursor, may_include);
     if (cursor.rest().starts_with("include ")) return parse_include(cursor, may_include);
     if (!parse_setting(cursor)) read_production(cursor);
   }
@@ -271,14 +277,58 @@ class Parser {
     parse_sun(cursor, grammar_);
   }
 
+  /// colors: 8b5a2b 2e7d32 …
+  void parse_colors(Cursor& cursor) {
+    if (!appearance_->colors.empty())
+      throw_at(cursor.position(), "got a second table of colours, expected one");
+    while (!cursor.at_end()) {
+      cursor.take("#");
+      const Position position = cursor.position();
+      const std::string_view rest = cursor.rest();
+      const std::string word(rest.substr(0, std::min(rest.find_first_of(" \t\r\n#"), rest.size())));
+      if (word.size() != 6 || word.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
+        throw_at(position, "got '{}', expected a colour of six hexadecimal digits", word.substr(0, 40));
+      cursor.go_to(cursor.at() + word.size());
+      const auto value = static_cast<unsigned>(std::stoul(word, nullptr, 16));
+      const auto byte = [](unsigned bits) { return static_cast<std::uint8_t>(bits & 0xff); };
+      appearance_->colors.push_back({byte(value >> 16), byte(value >> 8), byte(value), true});
+    }
+    if (appearance_->colors.empty()) cursor.fail("colours of six hexadecimal digits");
+  }
+
+  /// "name" of a file.
+  static std::string parse_file_name(Cursor& cursor) {
+    cursor.expect("\"");
+    const std::size_t end = cursor.rest().find('"');
+    if (end == std::string_view::npos) cursor.fail("'\"' after the file's name");
+    std::string name(cursor.rest().substr(0, end));
+    cursor.go_to(cursor.at() + end + 1);
+    return name;
+  }
+
+  /// surface petal = "petal.patch"
+  void parse_surface(Cursor& cursor, bool may_read_files) {
+    cursor.take("surface");
+    cursor.skip_space();
+    const Position start = cursor.position();
+    NamedSurface surface{cursor.expect_word("the name of a surface"), {}};
+    for (const NamedSurface& other : appearance_->surfaces)
+      if (other.name == surface.name)
+        throw_at(start, "got surface '{}' a second time, expected another name", surface.name);
+    cursor.expect("=");
+    cursor.skip_space();
+    const Position position = cursor.position();
+    const std::string file = parse_file_name(cursor);
+    if (!cursor.at_end()) cursor.fail("the end of the line");
+    surface.triangles = read_surface(file, may_read_files, position);
+    appearance_->surfaces.push_back(std::move(surface));
+  }
+
   void parse_include(Cursor& cursor, bool may_include) {
     cursor.take("include");
     cursor.skip_space();
     const Position position = cursor.position();
-    cursor.expect("\"");
-    const std::size_t end = cursor.rest().find('"');
-    if (end == std::string_view::npos) cursor.fail("'\"' after the file's name");
-    const std::string name(cursor.rest().substr(0, end));
+    const std::string name = parse_file_name(cursor);
     if (!may_include) throw_at(position, "got an include, expected none in an L-system that is no file");
     // A file from a stranger must not show what else is on the disk.
     if (name.find('/') != std::string::npos || name.find('\\') != std::string::npos ||
@@ -316,6 +366,7 @@ class Parser {
   }
 
   Grammar& grammar_;
+  std::shared_ptr<Appearance> appearance_ = std::make_shared<Appearance>();
   std::vector<Production>* section_ = nullptr;
   int table_ = -1;
   std::set<std::string> taken_, included_;

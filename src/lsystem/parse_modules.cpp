@@ -3,6 +3,7 @@
 #include <cctype>
 
 #include "lsystem/surfaces.h"
+#include "lsystem/turtle_walk.h"
 
 namespace espalier::lsystem {
 
@@ -53,14 +54,17 @@ PatternModule parse_pattern_module(Cursor& cursor, Grammar& grammar) {
 }
 
 /// The number by which the turtle knows a surface, for the first argument of ~("leaf", …).
-void replace_surface_name(SuccessorModule& module, std::string_view name) {
+void replace_surface_name(SuccessorModule& module, std::string_view name, const Grammar& grammar) {
   if (name != "~" || module.arguments.empty()) return;
   Expression& first = module.arguments.front();
   if (first.text.size() < 2 || (first.text.front() != '"' && first.text.front() != '\'')) return;
-  first.text = std::to_string(surface_by_name(first.text.substr(1, first.text.size() - 2), first.position));
+  first.text = std::to_string(
+      surface_by_name(first.text.substr(1, first.text.size() - 2), *grammar.appearance, first.position));
 }
 
 SuccessorModule parse_successor_module(Cursor& cursor, Grammar& grammar) {
+  cursor.skip_space();
+  const Position position = cursor.position();
   const std::string name(take_symbol(cursor, grammar));
   SuccessorModule module;
   if (opens_parameters(cursor)) {
@@ -68,8 +72,13 @@ SuccessorModule parse_successor_module(Cursor& cursor, Grammar& grammar) {
     module.arguments = parse_expressions(cursor, ")");
     cursor.expect(")");
   }
-  replace_surface_name(module, name);
-  module.symbol = grammar.alphabet.intern(name, module.arguments.size());
+  replace_surface_name(module, name, grammar);
+  try {
+    check_arity(name, module.arguments.size());
+    module.symbol = grammar.alphabet.intern(name, module.arguments.size());
+  } catch (const InputError& error) {
+    throw_at(position, "{}", error.what());
+  }
   return module;
 }
 

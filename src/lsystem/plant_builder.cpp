@@ -5,6 +5,8 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "lsystem/frames.h"
+#include "lsystem/limits.h"
 #include "lsystem/stem_splines.h"
 #include "lsystem/surfaces.h"
 #include "lsystem/triangle_leaves.h"
@@ -14,16 +16,24 @@ namespace espalier::lsystem {
 
 namespace {
 
+constexpr std::size_t kMostVertices = 2000;     // of a polygon: cutting it takes the square of it
+constexpr std::size_t kMostLeaves = 5'000'000;  // and triangles of a plant
+
 /// Collects what the turtle draws.
 class Builder : public SilentVisitor {
  public:
-  Builder(const Settings& settings, Plant& plant)
-      : unit_(static_cast<float>(settings.unit_m)), settings_(settings), plant_(plant) {}
+  Builder(const Settings& settings, bool has_frames, Plant& plant)
+      : unit_(static_cast<float>(settings.unit_m)),
+        settings_(settings),
+        plant_(plant),
+        has_frames_(has_frames) {
+    if (has_frames) axis_.node = frames_.add_node(-1, {0, 0, 0});
+  }
 
   void begin_segment(const Turtle& turtle, const Step& step) {
     if (!polygons_.empty()) return;
     if (axis_.stem < 0) axis_.stem = stems_.add_stem(axis_.parent);
-    stems_.start_segment(axis_.stem, point(turtle.position), radius(turtle));
+    stems_.start_segment(axis_.stem, point(turtle.position), radius(turtle), turtle.color);
     if (step.arity >= 3) add_leaves(turtle, step);
   }
 
@@ -31,17 +41,19 @@ class Builder : public SilentVisitor {
     if (polygons_.empty())
       stems_.end_segment(axis_.stem, point(turtle.position), radius(turtle));
     else if (step.command == Command::draw)
-      polygons_.back().push_back(point(turtle.position));
+      add_vertex(turtle);
+    move_on(turtle);
   }
 
   void jump(const Turtle& turtle, const Step&) {
-    if (!polygons_.empty()) polygons_.back().push_back(point(turtle.position));
+    if (!polygons_.empty()) add_vertex(turtle);
     axis_.stem = -1;
+    move_on(turtle);
   }
 
   void open_branch() {
     stack_.push_back(axis_);
-    axis_ = {-1, axis_.stem >= 0 ? axis_.stem : axis_.parent};
+    axis_ = {-1, axis_.stem >= 0 ? axis_.stem : axis_.parent, axis_.node};
   }
   void close_branch() {
     axis_ = stack_.back();
@@ -54,12 +66,15 @@ class Builder : public SilentVisitor {
         polygons_.push_back({point(turtle.position)});
         return;
       case Command::polygon_close:
-        return close_polygon(step);
+        return close_polygon(turtle, step);
+      case Command::open_edge:
+        return frames_.open_edge(label_of(step), axis_.node);
+      case Command::close_edge:
+        return close_edge(turtle, step);
       case Command::vertex:
         if (polygons_.empty())
           throw_input_error("module {} of the string: got '.', expected it inside {{ }}", step.module);
-        polygons_.back().push_back(point(turtle.position));
-        return;
+        return add_vertex(turtle);
       case Command::sphere:
         return add_sphere(turtle, step);
       default:
@@ -82,6 +97,7 @@ class Builder : public SilentVisitor {
   struct Axis {
     std::int32_t stem = -1;    ///< -1 before its first segment
     std::int32_t parent = -1;  ///< the stem it springs from
+    Frames::Node node = -1;    ///< where the turtle is, in strings with frames
   };
 
   Vec3 point(const Vector& p) const {
@@ -95,20 +111,33 @@ class Builder : public SilentVisitor {
   }
 
   void add_leaf(const Turtle& turtle, double length, double width, LeafKind kind) {
+    check_count();
     plant_.leaves.position_m.push_back(point(turtle.position));
     plant_.leaves.axis.push_back(direction(turtle.heading));
     plant_.leaves.side.push_back(direction(turtle.left * -1));
     plant_.leaves.length_m.push_back(static_cast<float>(length) * unit_);
     plant_.leaves.width_m.push_back(static_cast<float>(width) * unit_);
     plant_.leaves.kind.push_back(kind);
+    if (turtle.color.is_set && plant_.leaves.color.empty())
+      plant_.leaves.color.resize(plant_.leaves.size() - 1);
+    if (turtle.color.is_set || !plant_.leaves.color.empty()) plant_.leaves.color.push_back(turtle.color);
   }
 
   /// ~(surface, scale, width scale)
   void add_surface(const Turtle& turtle, const Step& step) {
     const double scale = step.value_or(1, 1), width = step.value_or(2, scale);
-    const auto kind = step.values[0] == static_cast<int>(Surface::leaf) ? LeafKind::leaf : LeafKind::blossom;
-    if (scale > 0 && width > 0)
-      add_leaf(turtle, scale * settings_.leaf_length, width * settings_.leaf_width, kind);
+    const std::size_t own_count = settings_.appearance ? settings_.appearance->surfaces.size() : 0;
+    if (!(step.values[0] >= 0 && step.values[0] < static_cast<double>(kFirstOwnSurface + own_count)))
+      throw_input_error("module {} of the string: got surface {}, expected the name of one", step.module,
+                        step.values[0]);
+    if (!(scale > 0 && width > 0)) return;
+    const int surface = static_cast<int>(step.values[0]);
+    const double length = scale * settings_.leaf_length, across = width * settings_.leaf_width;
+    if (surface == kLeafSurface) return add_leaf(turtle, length, across, LeafKind::leaf);
+    if (surface == kBlossomSurface) return add_leaf(turtle, length, across, LeafKind::blossom);
+    if (surface < kFirstOwnSurface) return add_triangles(turtle, outline_triangles(surface), length, across);
+    const auto own = static_cast<std::size_t>(surface - kFirstOwnSurface);
+    add_triangles(turtle, settings_.appearance->surfaces[own].triangles, scale, width);
   }
 
   /// F(length, width, leaves, down angle, roll angle): leaves spread evenly along the segment, each turned
@@ -138,15 +167,70 @@ class Builder : public SilentVisitor {
       const Vec3 center = point(turtle.position - turtle.heading * (size * std::cos(angle_rad)));
       const float radius = static_cast<float>(size * std::sin(angle_rad)) * unit_;
       if (i > 0) stems_.end_segment(stem, center, radius);
-      if (i < kSegments) stems_.start_segment(stem, center, radius);
+      if (i < kSegments) stems_.start_segment(stem, center, radius, turtle.color);
     }
   }
 
-  void close_polygon(const Step& step) {
+  void add_vertex(const Turtle& turtle) {
+    if (polygons_.back().size() >= kMostVertices)
+      throw_input_error("got a polygon of more than {} vertices, expected fewer", kMostVertices);
+    polygons_.back().push_back(point(turtle.position));
+  }
+
+  void fill(const std::vector<Vec3>& outline, PartColor color) {
+    std::vector<Triangle> triangles;
+    triangulate(outline, triangles);
+    for (const Triangle& triangle : triangles) add_triangle(triangle, color);
+  }
+
+  void close_polygon(const Turtle& turtle, const Step& step) {
     if (polygons_.empty())
       throw_input_error("module {} of the string: got '}}', expected a '{{' before it", step.module);
-    triangulate(polygons_.back(), triangles_);
+    fill(polygons_.back(), turtle.color);
     polygons_.pop_back();
+  }
+
+  void move_on(const Turtle& turtle) {
+    if (has_frames_) axis_.node = frames_.add_node(axis_.node, point(turtle.position));
+  }
+  static int label_of(const Step& step) {
+    return static_cast<int>(std::clamp(step.value_or(0, 0), -1e9, 1e9));
+  }
+  void close_edge(const Turtle& turtle, const Step& step) {
+    std::vector<Vec3> outline;
+    try {
+      outline = frames_.close_edge(label_of(step), axis_.node);
+    } catch (const InputError& error) {
+      throw_input_error("module {} of the string: {}", step.module, error.what());
+    }
+    if (outline.size() > kMostVertices)
+      throw_input_error("module {} of the string: got a polygon of {} vertices, expected at most {}",
+                        step.module, outline.size(), kMostVertices);
+    fill(outline, turtle.color);
+  }
+
+  void add_triangle(const Triangle& triangle, PartColor color) {
+    check_count();
+    triangles_.push_back({triangle, color});
+  }
+  void check_count() const {
+    if (triangles_.size() + plant_.leaves.size() >= kMostLeaves)
+      throw TooManyModules(
+          fmt::format("got more than {} leaves and triangles of surfaces, expected fewer", kMostLeaves));
+  }
+
+  /// A surface of triangles, in the frame of a leaf.
+  void add_triangles(const Turtle& turtle, const std::vector<Triangle>& surface, double length,
+                     double width) {
+    const auto x = [&](const Vec3& v) { return turtle.left * (-width * static_cast<double>(v.x)); };
+    const auto y = [&](const Vec3& v) { return turtle.heading * (length * static_cast<double>(v.y)); };
+    const auto z = [&](const Vec3& v) { return turtle.up * (length * static_cast<double>(v.z)); };
+    for (const Triangle& triangle : surface) {
+      Triangle placed;
+      for (std::size_t k = 0; k < 3; ++k)
+        placed[k] = point(turtle.position + x(triangle[k]) + y(triangle[k]) + z(triangle[k]));
+      add_triangle(placed, turtle.color);
+    }
   }
 
   const float unit_;
@@ -156,15 +240,23 @@ class Builder : public SilentVisitor {
   Axis axis_;
   std::vector<Axis> stack_;
   std::vector<std::vector<Vec3>> polygons_;  ///< those that are open
-  std::vector<Triangle> triangles_;
+  std::vector<ColoredTriangle> triangles_;
+  Frames frames_;
+  const bool has_frames_;
 };
+
+bool has_frames(const SymbolTable& alphabet) {
+  for (std::size_t id = 0; id < alphabet.size(); ++id)
+    if (alphabet[static_cast<SymbolId>(id)].name == "#") return true;
+  return false;
+}
 
 }  // namespace
 
 void build_plant(const ModuleString& string, const SymbolTable& alphabet, const Settings& settings,
                  Plant& plant) {
   plant.clear();
-  Builder builder(settings, plant);
+  Builder builder(settings, has_frames(alphabet), plant);
   TurtleWalk(settings, builder).run(string, alphabet);
   builder.finish();
 }

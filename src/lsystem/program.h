@@ -86,7 +86,7 @@ struct LetFunction {
 
 /// What names mean in the expressions of a file.
 struct Names {
-  std::vector<std::string> globals;  ///< constants and parameters in order, then "step"
+  std::vector<std::string> globals;  ///< constants and parameters in order, then "fraction", "step"
   std::vector<LetFunction> functions;
   std::vector<std::string> volumes, fields;     ///< in order
   std::set<std::string, std::less<>> from_lua;  ///< given by the file's Lua code: not plain arithmetic

@@ -2,9 +2,12 @@
 // One row a setting: how many values it takes, their bounds, the field it sets.
 #pragma once
 #include <array>
+#include <memory>
 #include <string_view>
 
 namespace espalier::lsystem {
+
+struct Appearance;  // lsystem/appearance.h
 
 /// The settings of a derivation, evaluated.
 struct Settings {
@@ -17,8 +20,9 @@ struct Settings {
   std::array<double, 3> tropism{0, 0, 0};
   double susceptibility = 0;  ///< e of [Herbaceous §3]: how far tropism turns a segment
   int leaf_shape = 8, blossom_shape = 1;
-  double leaf_length = 1, leaf_width = 1;  ///< of a surface at scale 1, in units
-  double joint = 1;                        ///< 1: joints of segments are smooth, 0: they are corners
+  double leaf_length = 1, leaf_width = 1;        ///< of a surface at scale 1, in units
+  double joint = 1;                              ///< 1: joints of segments are smooth, 0: they are corners
+  std::shared_ptr<const Appearance> appearance;  ///< of the grammar
 };
 
 using SettingValues = std::array<double, 3>;

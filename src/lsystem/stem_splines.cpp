@@ -28,19 +28,21 @@ std::int32_t StemSplines::add_stem(std::int32_t parent) {
   return static_cast<std::int32_t>(stems_.size() - 1);
 }
 
-void StemSplines::start_segment(std::int32_t stem, Vec3 point_m, float radius_m) {
+void StemSplines::start_segment(std::int32_t stem, Vec3 point_m, float radius_m, PartColor color) {
   Stem& of = stems_[static_cast<std::size_t>(stem)];
-  if (of.last_knot < 0) return end_segment(stem, point_m, radius_m);
+  if (of.last_knot < 0) end_segment(stem, point_m, radius_m);
+  Knot& joint = knots_[static_cast<std::size_t>(of.last_knot)];
   // Where the width changes between two segments, their joint has the mean.
-  float& joint_m = knots_[static_cast<std::size_t>(of.last_knot)].radius_m;
-  joint_m = (joint_m + radius_m) / 2;
+  joint.radius_m = (joint.radius_m + radius_m) / 2;
+  joint.color = color;
+  has_colors_ = has_colors_ || color.is_set;
 }
 
 void StemSplines::end_segment(std::int32_t stem, Vec3 point_m, float radius_m) {
   Stem& of = stems_[static_cast<std::size_t>(stem)];
   of.last_knot = static_cast<std::int32_t>(knots_.size());
   ++of.knot_count;
-  knots_.push_back({point_m, radius_m, stem});
+  knots_.push_back({point_m, radius_m, stem, {}});
 }
 
 void StemSplines::write(Plant& plant, bool smooth) const {
@@ -68,10 +70,12 @@ void StemSplines::write(Plant& plant, bool smooth) const {
   plant.knots.radius_m.resize(knot);
   plant.knots.handle_in_m.resize(knot);
   plant.knots.handle_out_m.resize(knot);
+  if (has_colors_) plant.knots.color.resize(knot);
   for (const Knot& of : knots_) {
     const std::uint32_t place = next[static_cast<std::size_t>(of.stem)]++;
     plant.knots.point_m[place] = of.point_m;
     plant.knots.radius_m[place] = of.radius_m;
+    if (has_colors_) plant.knots.color[place] = of.color;
   }
   for (std::size_t s = 0; s < stems_.size(); ++s)
     write_handles(plant.knots, plant.stems.first_knot[s], plant.stems.first_knot[s + 1], smooth);

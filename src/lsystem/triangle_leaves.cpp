@@ -18,16 +18,21 @@ float half_base() {
   return half;
 }
 
-void add_triangle(const Triangle& triangle, float half_base, Leaves& leaves) {
+void add_triangle(const Triangle& triangle, PartColor color, float half_base, Leaves& leaves) {
   const Vec3 foot = (triangle[0] + triangle[1]) * 0.5f;
   const Vec3 side = triangle[1] - foot, axis = triangle[2] - foot;
-  if (!(length(side) > 0) || !(length(axis) > 0)) return;
+  if (!(length(cross(side, axis)) > 0)) return;
   leaves.position_m.push_back(foot);
   leaves.axis.push_back(normalized(axis));
   leaves.side.push_back(normalized(side));
   leaves.length_m.push_back(length(axis));
   leaves.width_m.push_back(length(side) / half_base);
   leaves.kind.push_back(LeafKind::leaf);
+  leaves.color.push_back(color);
+}
+
+PartColor color_of(const Leaves& leaves, std::size_t i) {
+  return i < leaves.color.size() ? leaves.color[i] : PartColor{};
 }
 
 void copy_leaf(const Leaves& from, std::size_t i, Leaves& to) {
@@ -37,11 +42,12 @@ void copy_leaf(const Leaves& from, std::size_t i, Leaves& to) {
   to.length_m.push_back(from.length_m[i]);
   to.width_m.push_back(from.width_m[i]);
   to.kind.push_back(from.kind[i]);
+  to.color.push_back(color_of(from, i));
 }
 
 }  // namespace
 
-void draw_as_triangles(const std::vector<Triangle>& triangles, Plant& plant) {
+void draw_as_triangles(const std::vector<ColoredTriangle>& triangles, Plant& plant) {
   const float half = half_base();
   const LeafOutline& outline = leaf_outline(plant.leaf_shape);
   const Leaves& old = plant.leaves;
@@ -55,10 +61,13 @@ void draw_as_triangles(const std::vector<Triangle>& triangles, Plant& plant) {
       return old.position_m[i] + old.side[i] * (v.x * old.width_m[i]) + old.axis[i] * (v.y * old.length_m[i]);
     };
     for (const auto& [a, b, c] : outline.triangles)
-      add_triangle({place(outline.vertices[a]), place(outline.vertices[b]), place(outline.vertices[c])}, half,
-                   leaves);
+      add_triangle({place(outline.vertices[a]), place(outline.vertices[b]), place(outline.vertices[c])},
+                   color_of(old, i), half, leaves);
   }
-  for (const Triangle& triangle : triangles) add_triangle(triangle, half, leaves);
+  for (const auto& [corners, color] : triangles) add_triangle(corners, color, half, leaves);
+  const bool has_colors =
+      std::any_of(leaves.color.begin(), leaves.color.end(), [](PartColor c) { return c.is_set; });
+  if (!has_colors) leaves.color.clear();
   plant.leaves = std::move(leaves);
   plant.leaf_shape = kTriangularShape;
 }

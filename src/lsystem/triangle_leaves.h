@@ -8,7 +8,13 @@
 
 namespace espalier::lsystem {
 
+struct ColoredTriangle {
+  Triangle corners;
+  PartColor color;
+};
+
 /// Turns the plant's leaves into triangles, adds these, and gives it the triangular outline; blossoms stay.
-void draw_as_triangles(const std::vector<Triangle>& triangles, Plant& plant);
+/// Triangles without an area are left out.
+void draw_as_triangles(const std::vector<ColoredTriangle>& triangles, Plant& plant);
 
 }  // namespace espalier::lsystem

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "plant/plant.h"
+
 namespace espalier::lsystem {
 
 struct Vector {
@@ -49,7 +51,9 @@ class Rotation {
 struct Turtle {
   Vector position;
   Vector heading{0, 0, 1}, left{-1, 0, 0}, up{0, -1, 0};
-  double width = 0.1;  ///< diameter of segments
+  double width = 0.1;   ///< diameter of segments
+  int color_index = 0;  ///< in the table of colours; 0: that of the material
+  PartColor color;
 
   /// Turns `a` towards `b`, and `b` away from `a`.
   static void turn(Vector& a, Vector& b, const Rotation& by) {

@@ -2,9 +2,12 @@
 // and keeps the turtles of open branches. Commands are those of [ABOP §1.3, §1.5] with the signs of
 // [Topiary Fig. 1]; docs/lsystem.md lists them.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
+#include "core/error.h"
+#include "lsystem/appearance.h"
 #include "lsystem/module_string.h"
 #include "lsystem/settings.h"
 #include "lsystem/turtle.h"
@@ -28,12 +31,15 @@ enum class Command : std::uint8_t {
   level,
   narrower,
   wider,
-  color,
+  next_color,
+  previous_color,
   sphere,
   look_at,
   polygon_open,
   polygon_close,
   vertex,
+  open_edge,  // ? and # of [Herbaceous §6]
+  close_edge,
   surface,
   query_position,
   query_heading,
@@ -43,6 +49,9 @@ enum class Command : std::uint8_t {
 
 /// The command of each symbol, by id. Throws InputError for a command with a wrong number of parameters.
 std::vector<Command> commands_of(const SymbolTable& alphabet);
+
+/// Throws InputError where the turtle knows the symbol, but not with so many parameters.
+void check_arity(std::string_view name, std::size_t arity);
 
 /// A module as the walk meets it.
 struct Step {
@@ -112,6 +121,27 @@ class TurtleWalk {
                    settings_.susceptibility);
   }
 
+  /// ; , ': the next or the previous colour of the table, colour (n), or (red, green, blue), each 0 to 1.
+  void set_color(const Step& step, int change) {
+    if (step.arity == 3) {
+      turtle_.color = rgb(step.values);
+      return;
+    }
+    const int count = settings_.appearance ? static_cast<int>(settings_.appearance->colors.size()) : 0;
+    if (step.arity == 1 && !(step.values[0] >= 0 && step.values[0] <= count))
+      throw_input_error("module {} of the string: got colour {}, expected 0 to {}", step.module,
+                        step.values[0], count);
+    turtle_.color_index = step.arity == 1 ? static_cast<int>(step.values[0])
+                                          : std::clamp(turtle_.color_index + change, 0, count);
+    turtle_.color = count > 0 ? settings_.appearance->color(turtle_.color_index) : PartColor{};
+  }
+  static PartColor rgb(const double* values) {
+    const auto byte = [](double x) {
+      return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.0, 1.0)));
+    };
+    return {byte(values[0]), byte(values[1]), byte(values[2]), true};
+  }
+
   void take(const Step& step) {
     switch (step.command) {
       case Command::draw:
@@ -161,8 +191,13 @@ class TurtleWalk {
       case Command::polygon_open:
       case Command::polygon_close:
       case Command::vertex:
+      case Command::open_edge:
+      case Command::close_edge:
         return visitor_.other(turtle_, step);
-      case Command::color:
+      case Command::next_color:
+        return set_color(step, 1);
+      case Command::previous_color:
+        return set_color(step, -1);
       case Command::none:
         return;
     }

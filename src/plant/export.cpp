@@ -11,6 +11,7 @@
 #include <assimp/Exporter.hpp>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -20,6 +21,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "plant/mesh_colors.h"
 
 namespace espalier {
 
@@ -36,7 +38,7 @@ constexpr std::array<MeshFormat, 4> kFormats{
     {{".glb", "glb2", true}, {".obj", "obj", false}, {".ply", "plyb", false}, {".stl", "stlb", false}}};
 
 struct Material {
-  const char* name;
+  std::string name;
   aiColor3D colour;
   bool two_sided;
 };
@@ -53,6 +55,20 @@ const MeshFormat& format_of(const fs::path& path) {
     if (format.extension == extension) return format;
   throw_input_error("mesh '{}': unknown extension '{}', expected .glb, .obj, .ply or .stl", path.string(),
                     path.extension().string());
+}
+
+/// glTF's colours are linear, and so are ours of bark and leaves (IEC 61966-2-1).
+float linear(std::uint8_t srgb) {
+  const float c = static_cast<float>(srgb) / 255;
+  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+}
+
+/// "bark" with a colour is "bark_a0522d".
+Material colored(const Material& material, PartColor color) {
+  if (!color.is_set) return material;
+  return {fmt::format("{}_{:02x}{:02x}{:02x}", material.name, color.r, color.g, color.b),
+          {linear(color.r), linear(color.g), linear(color.b)},
+          material.two_sided};
 }
 
 aiVector3D to_assimp(Vec3 v, bool y_up) {
@@ -137,32 +153,43 @@ aiMesh* to_assimp(const TriangleMesh& mesh, const Piece& piece, const Material& 
   return out.release();
 }
 
+/// What shares a material. Parts with colours of their own are copies.
 struct Part {
-  const TriangleMesh* mesh;
-  const Material* material;
+  std::shared_ptr<const TriangleMesh> mesh;
+  Material material;
   std::vector<Piece> pieces;
 };
 
+void add_parts(const TriangleMesh& mesh, const Material& material, std::vector<Part>& parts) {
+  const auto add = [&](std::shared_ptr<const TriangleMesh> of, const Material& its) {
+    std::vector<Piece> pieces = cut_into_pieces(*of);
+    if (!pieces.empty()) parts.push_back({std::move(of), its, std::move(pieces)});
+  };
+  if (mesh.color.empty()) return add({std::shared_ptr<void>(), &mesh}, material);
+  for (auto& [color, part] : split_by_color(mesh))
+    add(std::make_shared<TriangleMesh>(std::move(part)), colored(material, color));
+}
+
 std::vector<Part> parts_of(const PlantMesh& mesh) {
-  std::vector<Part> parts{{&mesh.bark, &kBark, cut_into_pieces(mesh.bark)},
-                          {&mesh.leaves, &kLeaf, cut_into_pieces(mesh.leaves)},
-                          {&mesh.blossoms, &kBlossom, cut_into_pieces(mesh.blossoms)}};
-  std::erase_if(parts, [](const Part& part) { return part.pieces.empty(); });
+  std::vector<Part> parts;
+  add_parts(mesh.bark, kBark, parts);
+  add_parts(mesh.leaves, kLeaf, parts);
+  add_parts(mesh.blossoms, kBlossom, parts);
   return parts;
 }
 
 /// Adds one material and one node, with a mesh a piece.
 void add_part(const Part& part, const MeshFormat& format, aiScene& scene) {
   aiNode& root = *scene.mRootNode;
-  aiNode* node = root.mChildren[root.mNumChildren++] = new aiNode(part.material->name);
+  aiNode* node = root.mChildren[root.mNumChildren++] = new aiNode(part.material.name);
   node->mParent = &root;
   node->mMeshes = new unsigned[part.pieces.size()];
   for (const Piece& piece : part.pieces) {
-    aiMesh* mesh = scene.mMeshes[scene.mNumMeshes] = to_assimp(*part.mesh, piece, *part.material, format);
+    aiMesh* mesh = scene.mMeshes[scene.mNumMeshes] = to_assimp(*part.mesh, piece, part.material, format);
     mesh->mMaterialIndex = scene.mNumMaterials;
     node->mMeshes[node->mNumMeshes++] = scene.mNumMeshes++;
   }
-  scene.mMaterials[scene.mNumMaterials++] = to_assimp(*part.material).release();
+  scene.mMaterials[scene.mNumMaterials++] = to_assimp(part.material).release();
 }
 
 /// One child of the root a material. The scene owns what is in it.

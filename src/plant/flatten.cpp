@@ -34,6 +34,11 @@ Vec3 point_on(const Segment& s, float t) {
   return lerp(lerp(a, b, t), lerp(b, c, t), t);
 }
 
+/// New points get the colour of the segment that leads to them.
+void fill_colors(const Knots& knots, std::size_t segment, Polyline& polyline) {
+  if (!knots.color.empty()) polyline.color.resize(polyline.size(), knots.color[segment]);
+}
+
 void append_point(Vec3 point_m, float radius_m, Polyline& polyline) {
   if (polyline.size() > 0 && length(point_m - polyline.point_m.back()) < kSamePoint_m) {
     polyline.radius_m.back() = radius_m;
@@ -57,11 +62,15 @@ void append_segment(const Segment& s, float tolerance_m, Polyline& polyline) {
 void flatten_stem(const Plant& plant, std::size_t stem, float tolerance_m, Polyline& polyline) {
   polyline.point_m.clear();
   polyline.radius_m.clear();
+  polyline.color.clear();
   const std::size_t first = plant.stems.first_knot[stem], end = plant.stems.first_knot[stem + 1];
   if (first == end) return;
   append_point(plant.knots.point_m[first], plant.knots.radius_m[first], polyline);
-  for (std::size_t k = first; k + 1 < end; ++k)
+  fill_colors(plant.knots, first, polyline);
+  for (std::size_t k = first; k + 1 < end; ++k) {
     append_segment(segment_at(plant.knots, k), tolerance_m, polyline);
+    fill_colors(plant.knots, k, polyline);
+  }
 }
 
 }  // namespace espalier

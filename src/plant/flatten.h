@@ -15,6 +15,7 @@ namespace espalier {
 struct Polyline {
   std::vector<Vec3> point_m;  ///< no two neighbours closer than a micrometre
   std::vector<float> radius_m;
+  std::vector<PartColor> color;  ///< of the way to each point from the one before; empty: none is set
 
   std::size_t size() const { return radius_m.size(); }
 };

@@ -77,6 +77,7 @@ void append_leaf(const Leaves& leaves, std::size_t i, const LeafTemplate& leaf, 
   }
   for (const auto& t : leaf.outline.triangles)
     mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  if (!leaves.color.empty()) mesh.color.resize(mesh.triangles.size(), leaves.color[i]);
 }
 
 void append_leaves(const Plant& plant, LeafKind kind, const LeafOutline& outline, TriangleMesh& mesh) {

@@ -22,6 +22,7 @@ struct TriangleMesh {
   std::vector<Vec3> position_m, normal;  ///< a vertex each
   std::vector<TextureCoordinate> texture;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<PartColor> color;  ///< of each triangle; empty: none is set
 };
 
 struct PlantMesh {

@@ -79,12 +79,14 @@ void Plant::clear() {
   knots.handle_in_m.clear();
   knots.handle_out_m.clear();
   knots.radius_m.clear();
+  knots.color.clear();
   leaves.position_m.clear();
   leaves.axis.clear();
   leaves.side.clear();
   leaves.length_m.clear();
   leaves.width_m.clear();
   leaves.kind.clear();
+  leaves.color.clear();
   leaf_shape = 8;
   blossom_shape = 1;
   tree_scale_m = 0;
@@ -97,7 +99,8 @@ std::size_t memory_bytes(const Plant& plant) {
   const auto& [stems, knots, leaves, leaf_shape, blossom_shape, tree_scale_m] = plant;
   return bytes(stems.first_knot, stems.parent, stems.level, stems.path_key, stems.origin, stems.child_index,
                knots.point_m, knots.handle_in_m, knots.handle_out_m, knots.radius_m, leaves.position_m,
-               leaves.axis, leaves.side, leaves.length_m, leaves.width_m, leaves.kind);
+               leaves.axis, leaves.side, leaves.length_m, leaves.width_m, leaves.kind, knots.color,
+               leaves.color);
 }
 
 Bounds bounds(const Plant& plant) {

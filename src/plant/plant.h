@@ -2,6 +2,7 @@
 // Metres, z up, base of the first trunk near the origin. A stem is a cubic Bézier spline with a
 // radius at each knot; how finely it is flattened is chosen by whoever draws or meshes it.
 #pragma once
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -9,6 +10,13 @@
 #include "core/vec3.h"
 
 namespace espalier {
+
+/// A colour that a model gives to a part: sRGB. Where it is not set, the part has that of its material.
+struct PartColor {
+  std::uint8_t r = 0, g = 0, b = 0;
+  bool is_set = false;
+  auto operator<=>(const PartColor&) const = default;
+};
 
 enum class LeafKind : std::uint8_t { leaf, blossom };
 
@@ -29,6 +37,7 @@ struct Stems {
 struct Knots {
   std::vector<Vec3> point_m, handle_in_m, handle_out_m;  ///< absolute positions
   std::vector<float> radius_m;
+  std::vector<PartColor> color;  ///< of the segment that begins at the knot; empty: none is set
 
   std::size_t size() const { return radius_m.size(); }
 };
@@ -40,6 +49,7 @@ struct Leaves {
   std::vector<Vec3> axis, side;          ///< unit vectors: along the leaf, across it
   std::vector<float> length_m, width_m;  ///< scale of the unit outline along axis and side
   std::vector<LeafKind> kind;
+  std::vector<PartColor> color;  ///< empty: none is set
 
   std::size_t size() const { return length_m.size(); }
 };

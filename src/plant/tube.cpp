@@ -142,10 +142,17 @@ void append_tube(const Polyline& line, int sides, TriangleMesh& mesh) {
   const auto side_count = static_cast<std::uint32_t>(sides);
   const auto first = static_cast<std::uint32_t>(mesh.position_m.size());
   for (const Ring& ring : rings) append_ring(ring, corners, mesh);
-  for (std::uint32_t i = 0; i + 1 < rings.size(); ++i)
+  const auto color_as_ring = [&](std::size_t i) {
+    if (!line.color.empty()) mesh.color.resize(mesh.triangles.size(), line.color[i]);
+  };
+  for (std::uint32_t i = 0; i + 1 < rings.size(); ++i) {
     append_sides(first + i * (side_count + 1), side_count, mesh);
+    color_as_ring(i + 1);
+  }
   append_cap(rings.front(), -1, corners, mesh);
+  color_as_ring(1);
   append_cap(rings.back(), 1, corners, mesh);
+  color_as_ring(rings.size() - 1);
 }
 
 }  // namespace espalier

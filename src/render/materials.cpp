@@ -11,6 +11,7 @@ namespace espalier {
 
 namespace {
 
+constexpr float kLeafTransmission = 0.5f;  // of leaves that the model gave a colour
 constexpr std::uint32_t kLeafBrightness = 1, kLeafHue = 2, kNoise = 3;
 
 RandomKey lattice_key(int x, int y, int z) {
@@ -48,6 +49,18 @@ float thickest_m(const Plant& plant) {
   return radius;
 }
 
+/// IEC 61966-2-1.
+float linear(std::uint8_t srgb) {
+  const float c = static_cast<float>(srgb) / 255;
+  return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+}
+
+/// The colour that the model gave to this part, if it did.
+std::optional<LinearRgb> color_of(const std::vector<PartColor>& colors, std::size_t i) {
+  if (i >= colors.size() || !colors[i].is_set) return std::nullopt;
+  return LinearRgb{linear(colors[i].r), linear(colors[i].g), linear(colors[i].b)};
+}
+
 RTCRayHit embree_ray_hit(const Ray& ray) {
   RTCRayHit out{};
   out.ray = {ray.origin_m.x,
@@ -76,13 +89,17 @@ SurfaceFinder::SurfaceFinder(const Plant& plant, const EmbreeScene& scene, const
       bark_scale_m_(std::max(1e-4f, 0.22f * thickest_m(plant))) {}
 
 Surface SurfaceFinder::stem_surface(Vec3 point, unsigned primitive) const {
-  const float radius_m = plant_.knots.radius_m[scene_.stems().knot[primitive]];
+  const std::uint32_t knot = scene_.stems().knot[primitive];
+  if (const auto color = color_of(plant_.knots.color, knot)) return {{}, {}, *color, {0, 0, 0}};
+  const float radius_m = plant_.knots.radius_m[knot];
   const float woodiness = std::clamp(radius_m / bark_scale_m_, 0.0f, 1.0f);
   const float shade = 0.55f + 0.9f * bark_noise(point, bark_scale_m_);
   return {{}, {}, lerp(settings_.twig, settings_.bark * shade, woodiness), {0, 0, 0}};
 }
 
 Surface SurfaceFinder::leaf_surface(std::uint32_t leaf, bool is_blossom) const {
+  if (const auto color = color_of(plant_.leaves.color, leaf))
+    return {{}, {}, *color, *color * kLeafTransmission};
   const RandomKey key = child_key({0x6c656166}, leaf);
   const float brightness = 1 + 0.25f * uniform_signed(key, kLeafBrightness);
   if (is_blossom) return {{}, {}, settings_.blossom * brightness, settings_.blossom * (0.4f * brightness)};

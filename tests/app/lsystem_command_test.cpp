@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 
 #include "support/run_espalier.h"
 
@@ -34,6 +35,34 @@ TEST(LsystemCommand, DrawsAPictureAndASequence) {
     EXPECT_TRUE(fs::exists(folder / frame)) << frame;
 }
 
+TEST(LsystemCommand, DrawsAnAnimation) {
+  const fs::path folder = fresh_folder("lsystem_gif"), gif = folder / "growth.gif";
+  const ProgramRun run =
+      run_espalier("lsystem raceme --frames 5 --size 40 --samples 1 -o '" + gif.string() + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("5 frames of 40×40 px"), std::string::npos) << run.out;
+  std::ifstream file(gif, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(bytes.substr(0, 6), "GIF89a");
+  EXPECT_NE(bytes.find("NETSCAPE2.0"), std::string::npos);  // it repeats
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+}
+
+TEST(LsystemCommand, ReadsSurfacesOfTheSameFolder) {
+  const fs::path folder = fresh_folder("lsystem_surface");
+  write_lsystem(folder, "flag.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const fs::path file =
+      write_lsystem(folder, "flag.lsys", "surface flag = \"flag.obj\"\naxiom: F;(4)~(\"flag\")\n");
+  const std::string png = (folder / "flag.png").string(), glb = (folder / "flag.glb").string();
+  EXPECT_EQ(run_espalier("lsystem '" + file.string() + "' --size 40 --samples 1 -o '" + png + "'").exit_code,
+            0);
+  const ProgramRun mesh = run_espalier("mesh '" + file.string() + "' -o '" + glb + "'");
+  EXPECT_EQ(mesh.exit_code, 0) << mesh.err;
+  std::ifstream exported(glb, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(exported), {}};
+  EXPECT_NE(bytes.find("leaf_c8342b"), std::string::npos);
+}
+
 TEST(LsystemCommand, ReadsIncludesOfTheSameFolder) {
   const fs::path folder = fresh_folder("lsystem_include");
   write_lsystem(folder, "rules.lsys", "productions:\n  A --> AB\n");
@@ -51,7 +80,10 @@ TEST(LsystemCommand, BadInputIsOneClearLine) {
   const std::string growing = fmt::format("'{}' --string --steps 60 --max-modules 1000", grows.string());
   for (const char* arguments :
        {"nowhere.lsys --string", "ferm --string", "fern", "fern --string --steps=-1",
-        "fern --string --set x=1", "topiary_6 --string --set box=1000", looping.c_str(), growing.c_str()}) {
+        "fern --string --frames 3", "fern --frames 0 -o /tmp/x.gif",
+        "fern --frames 3 --frame-seconds 0 -o /tmp/x.gif", "fern --frames 3 -o /tmp/x.mp4",
+        "fern -o /tmp/x.gif", "fern --frames 3 -o /nowhere/x.gif", "fern --string --set x=1",
+        "topiary_6 --string --set box=1000", looping.c_str(), growing.c_str()}) {
     SCOPED_TRACE(arguments);
     expect_one_clear_error(run_espalier(fmt::format("lsystem {}", arguments)));
   }
@@ -67,6 +99,28 @@ TEST(LsystemCommand, LsystemsAreModels) {
       run + "'");
   EXPECT_EQ(fit.exit_code, 0) << fit.err;
   EXPECT_EQ(run_espalier("mask '" + run + "/best.toml' -o '" + mask + "'").exit_code, 0);
+}
+
+// The examples of the documentation, with small pictures.
+TEST(LsystemCommand, ExamplesWorkAsTheyStand) {
+  const fs::path folder = fresh_folder("lsystem_examples");
+  const std::string models = ESPALIER_SOURCE_DIR "/src/lsystem/models/";
+  const auto in_folder = [&](const char* name) { return " '" + (folder / name).string() + "'"; };
+  const std::string small = " --size 32 --samples 1";
+  EXPECT_EQ(run_espalier("lsystem '" + models + "topiary_6.lsys' --steps 27 --seed 3 -o" +
+                         in_folder("topiary.png") + small)
+                .exit_code,
+            0);
+  EXPECT_EQ(run_espalier("lsystem '" + models + "raceme.lsys' --steps 2 --string").out,
+            "I(1)[I(1)Flower(1)]I(0)[I(0)Flower(0)]A\n");
+  EXPECT_EQ(
+      run_espalier("lsystem '" + models + "mycelis.lsys' --frames 6 -o" + in_folder("growth.gif") + small)
+          .exit_code,
+      0);
+  const ProgramRun fit =
+      run_espalier("fit '" ESPALIER_SOURCE_DIR "/targets/fir.png' --model '" + models +
+                   "small_pine.lsys' --free branch_angle,reach --evaluations 20 --out" + in_folder("run"));
+  EXPECT_EQ(fit.exit_code, 0) << fit.err;
 }
 
 }  // namespace

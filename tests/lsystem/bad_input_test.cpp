@@ -81,7 +81,17 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"axiom: A(1)\nproductions:\n p1: A(x) --> A(x) : -1\n", "probability is -1"},
         Fault{"axiom: A\nproductions:\n p1: A --> B\n p2: A --> C\n",
               "module A: p2 and p1 (bad.lsys:3:2) both apply"},
-        Fault{"axiom: F(1,2,3,4,5,6)\n", "module F: got 6 parameters, the turtle expects 0 to 5"},
+        Fault{"axiom: F(1,2,3,4,5,6)\n",
+              "bad.lsys:1:8: module F: got 6 parameters, the turtle expects 0 to 5"},
+        Fault{"axiom: A\nproductions:\n p1: A --> @(1,2)\n",
+              "bad.lsys:3:12: module @: got 2 parameters, the turtle expects 3 to 3"},
+        Fault{"axiom: A\nproductions:\n p1: A --> lua\n   produce('|', 1)\n", "bad.lsys:3:2: p1, module A"},
+        Fault{"let f(a,b) = a + b\naxiom: A(1)\nproductions:\n p1: A(x) --> A(f(x))\n", "bad.lsys:4:"},
+        Fault{"axiom: A(1)\nproductions:\n p1: A(x) --> A(sqrt())\n", "bad.lsys:3:"},
+        Fault{"axiom: A(1)\nproductions:\n p1: A(x) --> +(sqrt(0-x))\n",
+              "bad.lsys:3:2: p1, module A(1): argument 'sqrt(0-x)' is"},
+        Fault{"axiom: A\nproductions:\n p1: A : nothing(1) --> B\n",
+              "bad.lsys:3:10: 'nothing(1)': got the unknown name"},
         Fault{"axiom: A}\n", "got '}', expected a '{' before it"},
         Fault{"axiom: {F\n", "got '{' without '}'"}));
 

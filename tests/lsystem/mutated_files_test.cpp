@@ -1,12 +1,15 @@
 // Damaged files: the bundled L-systems with bytes changed, cut, doubled and swapped. Whatever comes of them
 // is a derivation or one InputError; nothing else may be thrown, and nothing runs on.
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
 
 #include <algorithm>
+#include <filesystem>
 
+#include "core/files.h"
+#include "core/random.h"
 #include "lsystem/bundled.h"
-#include "lsystem/plant_builder.h"
-#include "lsystem/strings.h"
+#include "lsystem/derive_bounded.h"
 
 namespace espalier::lsystem {
 namespace {
@@ -39,24 +42,11 @@ std::string mutated(std::string text, std::uint64_t& state) {
   return text;
 }
 
-/// False where the text is refused.
+/// False where the text is refused, which takes one line that says where.
 bool derives(const std::string& text) {
-  Limits limits;
-  limits.lua_instructions = 2e5;
-  limits.modules = 5000;
-  try {
-    const Grammar grammar = parse_grammar(text, "mutated.lsys");
-    Derivation derivation(grammar, limits);
-    derivation.start(1);
-    derivation.run(3);
-    Plant plant;
-    build_plant(derivation.interpreted(), derivation.alphabet(), derivation.settings(), plant);
-    return true;
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 0) << message;
-    return false;
-  }
+  const std::string message = derive_bounded(text);
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 0) << message;
+  return message.empty();
 }
 
 TEST(MutatedFiles, EndInADerivationOrOneLine) {
@@ -70,6 +60,76 @@ TEST(MutatedFiles, EndInADerivationOrOneLine) {
     }
   EXPECT_GT(refused, 100);
   EXPECT_GT(derived, 100);
+}
+
+TEST(RandomFiles, EndInADerivationOrOneLine) {
+  EXPECT_TRUE(rc::check("bytes", [](const std::string& bytes) {
+    const std::string message = derive_bounded(bytes);
+    RC_ASSERT(!message.empty());
+    RC_ASSERT(message.find('\n') == std::string::npos);
+    RC_ASSERT(message.find("any.lsys:") != std::string::npos);
+  }));
+  // Words of the notation in a wild order get further than bytes do.
+  const std::vector<std::string> words{"axiom:",
+                                       "productions:",
+                                       "interpretation:",
+                                       "-->",
+                                       "A",
+                                       "B(x)",
+                                       "B(1)",
+                                       "[",
+                                       "]",
+                                       "<",
+                                       ">",
+                                       ":",
+                                       "x",
+                                       "+",
+                                       "(",
+                                       ")",
+                                       "\n",
+                                       "\n ",
+                                       "lua",
+                                       "produce('A')",
+                                       "param a = 1 in 0 .. 2",
+                                       "const c = 1/0",
+                                       "F(1)",
+                                       "{",
+                                       "}",
+                                       ".",
+                                       "?",
+                                       "#",
+                                       "~(\"petal\")",
+                                       ";(1,0,0)",
+                                       ";(9)",
+                                       "*",
+                                       "0.5",
+                                       "?P(x,y,z)",
+                                       "%",
+                                       "surface s = \"petal.patch\"",
+                                       "colors: ff0000",
+                                       "table t when step > 1:",
+                                       "@(1,2,3)",
+                                       "!(-1)",
+                                       "@o(1e300)",
+                                       "F(1e300)",
+                                       "$",
+                                       "|",
+                                       "let f(x) = x"};
+  EXPECT_TRUE(rc::check("words", [&] {
+    const auto chosen = *rc::gen::container<std::vector<std::string>>(rc::gen::elementOf(words));
+    std::string text = "axiom: A\nproductions:\n A --> ";
+    for (const std::string& word : chosen) text += word + " ";
+    RC_ASSERT(derive_bounded(text).find('\n') == std::string::npos);
+  }));
+}
+
+/// What the fuzzer found once: tests/fuzz/corpus.
+TEST(RandomFiles, EarlierFindsStayRepaired) {
+  for (const auto& entry : std::filesystem::directory_iterator(ESPALIER_SOURCE_DIR "/tests/fuzz/corpus")) {
+    SCOPED_TRACE(entry.path().filename().string());
+    const std::string message = derive_bounded(read_file(entry.path()));
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -92,6 +93,62 @@ TEST(PaperModels, BifurcationSlowsDownAsItsEquationSays) {
   EXPECT_LT(error, 0.03 * expected);
 }
 
+// The segments of L-system 5 are those that its equation adds: 1 + 2 + 4 + … + 4k²/9, in the mean.
+TEST(PaperModels, SegmentsAreTheSumOfTheEquation) {
+  const Grammar grammar = load_grammar("topiary_5");
+  Derivation derivation(grammar);
+  constexpr int kSeeds = 200, kSteps = 12;
+  double expected = 0, shoots = 1;
+  for (int k = 1; k <= kSteps + 1; ++k) {
+    expected += shoots;
+    shoots *= 1 + std::min(1.0, (2.0 * k + 1) / (k * k));
+  }
+  double sum = 0, squares = 0;
+  for (Seed seed = 1; seed <= kSeeds; ++seed) {
+    derivation.start(seed);
+    derivation.run(kSteps);
+    const auto segments = static_cast<double>(count(derivation.text(), "F"));
+    sum += segments;
+    squares += segments * segments;
+  }
+  const double mean = sum / kSeeds, error = std::sqrt((squares / kSeeds - mean * mean) / kSeeds);
+  EXPECT_NEAR(mean, expected, 4 * error);
+  EXPECT_LT(error, 0.03 * expected);
+}
+
+// [Topiary §5, Fig. 7]: the younger the apices of woken buds, the more they branch: an age of one is the most
+// vigorous.
+TEST(PaperModels, YoungerReiterationsAreMoreVigorous) {
+  const auto segments = [](const char* name) {
+    const Grammar grammar = load_grammar(name);
+    Derivation derivation(grammar);
+    std::size_t sum = 0;
+    for (Seed seed = 1; seed <= 3; ++seed) {
+      derivation.start(seed);
+      derivation.run(31);
+      sum += count(derivation.text(), "F");
+    }
+    return sum;
+  };
+  const std::size_t old = segments("topiary_7_old"), birth = segments("topiary_7_birth"),
+                    young = segments("topiary_7_young");
+  EXPECT_GT(birth, old);
+  EXPECT_GT(young, birth);
+}
+
+// [Herbaceous §2.4, §3]: the topologies of (a), (b), (c) and (d), and the strings of (a') and (c').
+TEST(PaperModels, FourPatternsHaveTheirStrings) {
+  const auto last = [](const char* name, int steps) { return strings_of(load_grammar(name), steps).back(); };
+  EXPECT_EQ(last("herbaceous_a", 1), "S[S]S[S]S");
+  EXPECT_EQ(last("herbaceous_a_prime", 1), "S['-S]S['+S]S");
+  EXPECT_EQ(count(last("herbaceous_a", 4), "S"), 625u);
+  EXPECT_EQ(last("herbaceous_b", 2), "SS[-S[-A]S[+A]A]SS[+S[-A]S[+A]A]S[-A]S[+A]A");
+  EXPECT_EQ(strings_of(load_grammar("herbaceous_c"), 3),
+            (Strings{"J[I]I[I]I[I]I", "J[J]J[I]I[I]I", "J[J]J[J]J[I]I", "J[J]J[J]J[J]J"}));
+  EXPECT_EQ(last("herbaceous_c_prime", 2), "J[+J]J[-J]J[+I]I");
+  EXPECT_EQ(strings_of(load_grammar("herbaceous_d"), 2).back(), "I[+I]J[-I]J[+I]J");
+}
+
 TEST(PaperModels, TopiaryStaysNearItsBox) {
   const Grammar grammar = load_grammar("topiary_6");
   Derivation derivation(grammar);
@@ -136,6 +193,39 @@ void expect_flowering(const Grammar& grammar, double d, double m, double n, doub
     const double length = -k * (m - u) / (n - v) + d / (n - v);
     EXPECT_NEAR(flowering.step, time, 2 * n + 1) << "branch " << k;
     EXPECT_NEAR(static_cast<double>(flowering.internodes), length, 2) << "branch " << k;
+  }
+}
+
+// The same in whole numbers, exactly: S starts in step d + 1 and passes k internodes of the main axis and l
+// of a lateral one in ku + lv steps; the next internode of branch k comes in step km + (l + 1)n, so l is the
+// first one where the signal is earlier, and the flower is there one step later.
+TEST(PaperModels, FlowersComeInTheStepOfWholeNumbers) {
+  const Grammar grammar = load_grammar("inflorescence_acropetal");
+  for (const auto& [d, m, n, u, v] : {std::array{12, 2, 3, 1, 1},
+                                      {12, 3, 3, 1, 2},
+                                      {17, 3, 5, 2, 1},
+                                      {9, 2, 4, 1, 3},
+                                      {20, 4, 3, 2, 2},
+                                      {15, 2, 2, 1, 1}}) {
+    Derivation derivation(grammar);
+    const std::array<double, 5> values{static_cast<double>(d), static_cast<double>(m), static_cast<double>(n),
+                                       static_cast<double>(u), static_cast<double>(v)};
+    derivation.start(values, 1);
+    std::map<std::size_t, Flowering> by_branch;
+    for (int step = 1; step <= 90; ++step) {
+      derivation.step();
+      const Strings lateral = branches(derivation.text(), "[&(45)");
+      for (std::size_t b = 0; b < lateral.size(); ++b)
+        if (count(lateral[b], "K(") > 0) by_branch.try_emplace(b, Flowering{step, count(lateral[b], "J")});
+    }
+    ASSERT_GE(by_branch.size(), 2u);
+    for (const auto& [branch, flowering] : by_branch) {
+      const int k = static_cast<int>(branch) + 1;
+      int l = 0;
+      while (k * m + (l + 1) * n <= d + 1 + k * u + l * v) ++l;
+      EXPECT_EQ(flowering.internodes, static_cast<std::size_t>(l)) << "branch " << k;
+      EXPECT_EQ(flowering.step, d + 2 + k * u + l * v) << "branch " << k;
+    }
   }
 }
 
@@ -193,6 +283,47 @@ TEST(PaperModels, WallLettuceFlowersFromTheTopDownwards) {
     EXPECT_GT(step, main_axis);
     above = step;
   }
+}
+
+// [Herbaceous §4.4.3]: the apex of each axis flowers first, then its lateral axes from the top downwards,
+// which are the longer the lower they are; so on each axis of the next order.
+TEST(PaperModels, ThreeSignalsMakeFlowersFromTheTopDownwards) {
+  const Grammar grammar = load_grammar("wall_lettuce");
+  const Strings strings = strings_of(grammar, 130);
+  std::map<std::size_t, int> first_flower;
+  std::map<std::size_t, std::size_t> own_internodes;
+  int main_axis = 0;
+  const auto without_branches = [](const std::string& branch) {
+    std::string axis;
+    int depth = 0;
+    for (const char c : branch) {
+      depth -= c == ']' ? 1 : 0;
+      if (depth == 1) axis += c;
+      depth += c == '[' ? 1 : 0;
+    }
+    return axis;
+  };
+  for (int step = 0; step <= 130; ++step) {
+    const std::string& string = strings[static_cast<std::size_t>(step)];
+    if (main_axis == 0 && count(string, "K(") > 0) main_axis = step;
+    const Strings lateral = branches(string, "[&(38)");
+    for (std::size_t k = 0; k < lateral.size(); ++k) {
+      const std::string axis = without_branches(lateral[k]);
+      if (count(axis, "K(") == 0 || !first_flower.try_emplace(k, step).second) continue;
+      own_internodes[k] = count(axis, "I(");
+    }
+  }
+  ASSERT_GE(first_flower.size(), 8u);
+  int above = 1000;
+  std::size_t longer = 1000;
+  for (const auto& [branch, step] : first_flower) {  // from the lowest to the highest
+    EXPECT_LT(step, above) << "branch " << branch;
+    EXPECT_LE(own_internodes[branch], longer) << "branch " << branch;
+    EXPECT_GT(step, main_axis);
+    above = step;
+    longer = own_internodes[branch];
+  }
+  EXPECT_GT(count(branches(strings.back(), "[&(38)").front(), "K("), 3u);  // flowers of the second order
 }
 
 TEST(PaperModels, EachOneGrowsAPlantThatRepeats) {

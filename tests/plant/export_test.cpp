@@ -19,6 +19,7 @@
 
 #include "core/error.h"
 #include "mesh_fixtures.h"
+#include "plant/mesh_colors.h"
 
 namespace espalier {
 namespace {
@@ -237,6 +238,56 @@ TEST_F(Export, PathsThatCannotBeWrittenAreRefused) {
 TEST_F(Export, EmptyPlantsAreRefused) {
   EXPECT_THROW(export_mesh(Plant{}, directory_ / "a.glb", {}), InputError);
   EXPECT_TRUE(files().empty());
+}
+
+/// A stem whose upper segment is red and one red leaf of three.
+Plant colored_plant() {
+  const PartColor red{255, 0, 0, true};
+  Plant plant;
+  add_winding_stem(plant, 3, 0.02f);
+  plant.knots.color = {{}, red, {}};
+  for (int i = 0; i < 3; ++i) add_leaf(plant, {static_cast<float>(i), 0, 2}, {0, 1, 0}, {1, 0, 0});
+  plant.leaves.color = {{}, red, {}};
+  return plant;
+}
+
+TEST_F(Export, ColorsAreMaterials) {
+  const Plant plant = colored_plant();
+  const PlantMesh mesh = mesh_plant(plant, {});
+  ASSERT_EQ(mesh.bark.color.size(), mesh.bark.triangles.size());
+  const std::size_t per_leaf = mesh.leaves.triangles.size() / 3;
+  for (const char* name : {"colors.glb", "colors.obj"}) {
+    SCOPED_TRACE(name);
+    const aiScene& scene = write_and_read(mesh, name);
+    EXPECT_EQ(triangles_in(scene), mesh.bark.triangles.size() + mesh.leaves.triangles.size());
+    EXPECT_EQ(triangles_of(scene, "leaf"), 2 * per_leaf);
+    EXPECT_EQ(triangles_of(scene, "leaf_ff0000"), per_leaf);
+    EXPECT_GT(triangles_of(scene, "bark"), 0u);
+    EXPECT_GT(triangles_of(scene, "bark_ff0000"), 0u);
+    for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
+      if (scene.mMaterials[m]->GetName() != aiString("leaf_ff0000")) continue;
+      aiColor3D colour;
+      EXPECT_EQ(scene.mMaterials[m]->Get(AI_MATKEY_COLOR_DIFFUSE, colour), AI_SUCCESS);
+      EXPECT_NEAR(colour.r, 1, 1e-3);
+      EXPECT_NEAR(colour.g, 0, 1e-3);
+    }
+  }
+}
+
+TEST_F(Export, ManyColorsAreRounded) {
+  Plant plant;
+  for (int i = 0; i < 2000; ++i) {
+    add_leaf(plant, {static_cast<float>(i), 0, 2}, {0, 1, 0}, {1, 0, 0});
+    plant.leaves.color.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i / 8),
+                                  static_cast<std::uint8_t>(7 * i), true});
+  }
+  const TriangleMesh leaves = mesh_plant(plant, {}).leaves;
+  const auto parts = split_by_color(leaves);
+  std::size_t triangles = 0;
+  for (const auto& [color, part] : parts) triangles += part.triangles.size();
+  EXPECT_LE(parts.size(), kMostColors);
+  EXPECT_GT(parts.size(), kMostColors / 16);
+  EXPECT_EQ(triangles, leaves.triangles.size());
 }
 
 }  // namespace

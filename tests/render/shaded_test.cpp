@@ -103,5 +103,17 @@ TEST(Shaded, AnyNumberOfThreadsGivesTheSameBits) {
   EXPECT_EQ(one.pixels, three.pixels);
 }
 
+TEST(Shaded, PartsHaveTheColorsThatTheModelGaveThem) {
+  Plant leaf = screen({1, 0, 0});
+  leaf.leaves.color = {{255, 0, 0, true}};
+  Plant stem;
+  add_cylinder(stem, {0, 0, 0}, {0, 0, 2}, 0.5f);
+  stem.knots.color = {{0, 0, 255, true}, {}};
+  const Rgb red = render_shaded(leaf, camera_of(leaf, 32)).at(16, 16);
+  const Rgb blue = render_shaded(stem, camera_of(stem, 32)).at(16, 16);
+  EXPECT_GT(red.r, 3 * (red.g + red.b));
+  EXPECT_GT(blue.b, 3 * (blue.r + blue.g));
+}
+
 }  // namespace
 }  // namespace espalier

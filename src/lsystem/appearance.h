@@ -1,0 +1,30 @@
+// What a file says of how its strings look, besides its settings: the table of colours, and the surfaces that
+// it names. Colours are sRGB; surfaces are triangles in the frame of a leaf: x to its right, y along it, z up
+// from it, in units, the origin where it is fixed.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "lsystem/polygon.h"
+#include "plant/plant.h"
+
+namespace espalier::lsystem {
+
+struct NamedSurface {
+  std::string name;
+  std::vector<Triangle> triangles;
+};
+
+struct Appearance {
+  std::vector<PartColor> colors;  ///< colour i is colors[i - 1]; 0 leaves a part the colour of its material
+  std::vector<NamedSurface> surfaces;
+
+  PartColor color(int index) const {
+    return index > 0 ? colors[static_cast<std::size_t>(index) - 1] : PartColor{};
+  }
+};
+
+/// Brown, green, yellow, red, white, pink, violet and blue, for files without a table.
+std::vector<PartColor> default_colors();
+
+}  // namespace espalier::lsystem
