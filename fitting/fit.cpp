@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "fitting/certainty_files.h"
 #include "fitting/fit_objective.h"
 #include "fitting/picture_choice.h"
 #include "fitting/plant_scorer.h"
@@ -27,6 +28,7 @@ constexpr std::size_t kStartBatch = 8;  ///< start points scored between two loo
 constexpr std::size_t kMostStarts = 3;  ///< of the best, given to the optimiser
 constexpr double kRefreshSeconds = 3;   ///< the directory is at most this old, unless writing it is slow
 constexpr double kRefreshShare = 0.02;  ///< of the time, at most, is spent writing the directory
+constexpr long kCertaintyShare = 10;    ///< one evaluation to so many of the search tells how sure it is
 
 /// The optimiser never sees the limit (LoggedScorer keeps it), so that it does the same for every limit.
 constexpr long kUnlimited = 1'000'000'000;
@@ -121,6 +123,7 @@ class FitRun : public Observer {
     return record_.budget.branch_rounds != 0 && record_.fit_seeds == 1 && task_.model->has_branch_paths();
   }
   bool search_time_is_over() const;
+  void measure_how_sure();
   void refine();
   void go_on_from(const BranchRounds& reached);
   void note_round();
@@ -179,6 +182,8 @@ void FitRun::on_scored(const ScoredBatch& batch) {
   if (batch.improved)
     state_.best_metrics = mean_metrics(task_, draw_candidate(task_, scorer_.best().values, *renderer_));
   state_.trace.add(batch, scorer_.best().score, state_.best_metrics, stage_);
+  for (std::size_t i = 0; state_.archive && i < batch.scores.size(); ++i)
+    state_.archive->offer(batch.candidates[i], batch.scores[i]);
   if (batch.replayed) return;
   if (seconds() - refreshed_at_ > std::max(kRefreshSeconds, refresh_cost_ / kRefreshShare))
     refresh_directory();
@@ -266,8 +271,16 @@ void FitRun::search(const std::vector<StartPoint>& starts, const std::vector<dou
     points.insert(points.end(), point.begin(), point.end());
   }
   stage_ = "search";
+  state_.archive.emplace(space);
   minimize(FitObjective(space, scorer_), kUnlimited, points);
   if (!stop_requested()) state_.stopped_by = "converged";
+}
+
+/// From the search alone, so that it comes out the same when the run is resumed.
+void FitRun::measure_how_sure() {
+  if (!state_.archive || state_.stopped_by == "interrupted") return;
+  state_.certainty = measure_certainty(*state_.archive, plant_scorer_,
+                                       scorer_.evaluations() / kCertaintyShare, record_.seed);
 }
 
 /// Branch by branch, from the best of the search; what ended the search does not end this.
@@ -346,13 +359,15 @@ FitResult FitRun::finish() {
           .seconds = state_.seconds,
           .stopped_by = *state_.stopped_by,
           .best_start = best_start->name,
-          .dimension = dimension_};
+          .dimension = dimension_,
+          .certainty = state_.archive ? certainty_in_words(state_.certainty, *state_.archive) : ""};
 }
 
 FitResult FitRun::run(std::vector<StartPoint> starts, const std::optional<SpeciesSpace>& species) {
   std::vector<double> scores = score_starts(starts);
   if (species) search_species(*species, starts, scores);
   search(starts, scores);
+  measure_how_sure();
   if (will_refine()) refine();
   return finish();
 }

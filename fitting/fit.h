@@ -38,6 +38,7 @@ struct FitResult {
   std::string stopped_by;  ///< "evaluations", "time", "target_fitness", "interrupted", "converged"
   std::string best_start;
   std::size_t dimension = 0;
+  std::string certainty;  ///< in words; empty where it was not measured
 };
 
 /// Runs the fit. All input is checked before `directory` is made. Throws InputError, for the record, its

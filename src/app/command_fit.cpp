@@ -168,6 +168,7 @@ void print_result(const FitResult& result, const FitRecord& record, const fs::pa
              result.best_start);
   if (result.branch_steps > 0)
     fmt::print("{} branches refined in {} steps\n", result.overrides.nodes.size(), result.branch_steps);
+  if (!result.certainty.empty()) fmt::print("{}\n", result.certainty);
   fmt::print("files: {} (best.toml, best.png, overlay.png, convergence.png, summary.json)\n",
              directory.string());
 }
@@ -255,7 +256,10 @@ void add_run_options(CLI::App& command, FitArguments& arguments) {
                      "rounds of branch by branch refinement after the search (default: as time allows, 24 "
                      "without a limit of time; 0: none)");
   command.add_option("--target-fitness", budget.target_fitness, "stop once the best is this good, 0..1");
-  command.add_option("--out", arguments.out, "directory to make (default: runs/IMAGE-SEED)");
+  command.add_option(
+      "--out", arguments.out,
+      "directory to make (default: runs/IMAGE-SEED); there, best.toml is the tree, archive/ holds others "
+      "nearly as good, parameters.svg says which parameters the picture determines");
   command.add_option("--threads", arguments.threads, "0: one per processor; changes the speed only")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
