@@ -345,6 +345,7 @@ MaskMetrics FitRun::untrained_metrics() {
 }
 
 FitResult FitRun::finish() {
+  if (state_.branches.lanes.empty()) state_.best = scorer_.best();
   if (task_.growth.train) state_.metrics_untrained = untrained_metrics();
   refresh_directory();
   const auto best_start =
@@ -386,6 +387,7 @@ FitResult fit(const FitRecord& given, const fs::path& directory, const FitOption
       make_start_points(*task.model, record.start, choice_for(record, task), record.growth,
                         target_height_m(record), task.plant_seeds.front());
   begin_run_directory(directory, {.record = record, .task = task});
+  for (const std::string& warning : task.warnings) options.on_warning(warning);
   return FitRun(record, task, directory, options).run(starts, species);
 }
 

@@ -26,6 +26,7 @@ struct FitOptions {
   RendererFactory make_renderer = make_scanline_renderer;
   std::function<bool()> stop_requested = [] { return false; };  ///< asked before each batch
   std::function<void(const FitProgress&)> on_progress = [](const FitProgress&) {};
+  std::function<void(const std::string&)> on_warning = [](const std::string&) {};  ///< before it begins
 };
 
 struct FitResult {

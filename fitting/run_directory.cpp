@@ -33,13 +33,13 @@ Picture enlarged(const Picture& picture, int factor) {
   return large;
 }
 
-/// The outlines a trained tree was grown into, as its preset names them; `outlines` leads from there to them.
-std::vector<GrownInto> grown_into(const RunState& state, const fs::path& outlines = {}) {
+/// The outlines a trained tree was grown into, as its preset names them: files beside it.
+std::vector<GrownInto> grown_into(const RunState& state) {
   std::vector<GrownInto> pictures;
-  if (!state.record.train_to_target) return pictures;
+  if (!state.task.growth.train) return pictures;
   for (std::size_t i = 0; i < state.task.views.size(); ++i) {
     const TargetView& view = state.task.views[i];
-    pictures.push_back({numbered(outlines, "outline", i), state.record.views[i].view, view.metres_per_px,
+    pictures.push_back({numbered({}, "outline", i), state.record.views[i].view, view.metres_per_px,
                         base_row_px(view.camera.height_px)});
   }
   return pictures;
@@ -63,8 +63,14 @@ std::string archived_to_toml(const RunState& state, std::size_t index) {
                   1 - solution.score, distance_between(solution, state.archive->solutions().front()));
   preset.model = state.record.model;
   preset.values = solution.values;
-  preset.grown_into = grown_into(state, "..");
+  preset.grown_into = grown_into(state);
   return preset_to_toml(preset);
+}
+
+/// The outlines that trained trees are grown into.
+void write_outlines(const fs::path& directory, const RunState& state) {
+  for (std::size_t i = 0; i < state.task.views.size() && state.task.growth.train; ++i)
+    write_mask_png(numbered(directory, "outline", i), state.task.views[i].target.outline());
 }
 
 /// archive/1.toml and so on, the best first; what an earlier state left there goes.
@@ -73,6 +79,7 @@ void write_archive(const fs::path& directory, const RunState& state) {
   const fs::path folder = directory / "archive";
   std::error_code ignored;
   fs::create_directories(folder, ignored);
+  if (!fs::exists(folder / "outline.png", ignored)) write_outlines(folder, state);
   const std::vector<ArchivedSolution>& solutions = state.archive->solutions();
   for (std::size_t i = 0; i < solutions.size(); ++i)
     write_file_atomically(folder / fmt::format("{}.toml", i + 1), archived_to_toml(state, i));
@@ -175,8 +182,7 @@ void begin_run_directory(const fs::path& directory, const RunState& state) {
   write_file_atomically(directory / "run.toml", record_to_toml(state.record, std::nullopt));
   for (std::size_t i = 0; i < state.task.views.size(); ++i)
     write_mask_png(numbered(directory, "target", i), state.task.views[i].target.mask());
-  for (std::size_t i = 0; i < state.task.views.size() && state.record.train_to_target; ++i)
-    write_mask_png(numbered(directory, "outline", i), state.task.views[i].target.outline());
+  write_outlines(directory, state);
 }
 
 void write_run_directory(const fs::path& directory, RunState& state) {
@@ -206,7 +212,7 @@ std::string run_summary(const RunState& state) {
   summary["branch_rounds"] = state.branches.rounds;
   summary["branch_steps"] = state.branches.steps;
   summary["kind"] = state.kind;
-  summary["trained_to_target"] = state.record.train_to_target;
+  summary["trained_to_target"] = state.task.growth.train;
   if (state.metrics_untrained) {
     summary["without_training"] = {{"iou", state.metrics_untrained->iou},
                                    {"tolerant_iou", state.metrics_untrained->tolerant_iou},
@@ -227,6 +233,7 @@ std::string run_summary(const RunState& state) {
   summary["embree_disagreement_pixels"] = state.embree_disagreement_px;
   if (state.record.height_m) summary["height_m"] = *state.record.height_m;
   for (const ViewRecord& view : state.record.views) summary["pictures"].push_back(view.picture.string());
+  if (!state.task.warnings.empty()) summary["warnings"] = state.task.warnings;
   if (state.archive) summary["archive"] = archive_to_json(*state.archive);
   if (!state.certainty.parameters.empty()) summary["parameters"] = certainty_to_json(state.certainty);
   for (const ScoredStart& start : state.starts)

@@ -114,6 +114,16 @@ TEST(Certainty, ARunLeavesItsArchiveAsPresetsAndItsParametersAsATable) {
   EXPECT_THAT(read_text_file(run / "parameters.svg"), testing::HasSubstr(">base_size[0]</text>"));
 }
 
+TEST(Certainty, AnArchivedTreeOfATrainedRunGrowsIntoTheSameOutline) {
+  FitRecord record = small_record();
+  record.train_to_target = true;
+  const fs::path run = run_of("certainty_trained", record);
+  const Preset archived = load_preset((run / "archive/1.toml").string());
+  ASSERT_EQ(archived.grown_into.size(), 1u);
+  EXPECT_NE(envelope_of(archived.grown_into), nullptr);
+  EXPECT_EQ(read_text_file(run / "archive/outline.png"), read_text_file(run / "outline.png"));
+}
+
 TEST(Certainty, NeitherThreadsNorABreakChangeIt) {
   const std::string unbroken = everything(run_of("certainty_one", small_record(), {.threads = 1}));
   EXPECT_EQ(everything(run_of("certainty_two", small_record(), {.threads = 2})), unbroken);
