@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "fitting/certainty_files.h"
 #include "fitting/fit_objective.h"
 #include "fitting/picture_choice.h"
 #include "fitting/plant_scorer.h"
@@ -30,6 +31,7 @@ constexpr std::size_t kMostStarts = 3;  ///< of the best, given to the optimiser
 constexpr int kTracedSize_px = 512;     ///< masks are at least this large where thin twigs are traced
 constexpr double kRefreshSeconds = 3;   ///< the directory is at most this old, unless writing it is slow
 constexpr double kRefreshShare = 0.02;  ///< of the time, at most, is spent writing the directory
+constexpr long kCertaintyShare = 10;    ///< one evaluation to so many of the search tells how sure it is
 
 /// The optimiser never sees the limit (LoggedScorer keeps it), so that it does the same for every limit.
 constexpr long kUnlimited = 1'000'000'000;
@@ -124,6 +126,7 @@ class FitRun : public Observer {
     return record_.budget.branch_rounds != 0 && record_.fit_seeds == 1 && task_.model->has_branch_paths();
   }
   bool search_time_is_over() const;
+  void measure_how_sure();
   void refine();
   std::vector<Solution> refinement_starts(const Solution& searched);
   void go_on_from(const BranchRounds& reached);
@@ -183,6 +186,8 @@ void FitRun::on_scored(const ScoredBatch& batch) {
   if (batch.improved)
     state_.best_metrics = mean_metrics(task_, draw_candidate(task_, scorer_.best().values, *renderer_));
   state_.trace.add(batch, scorer_.best().score, state_.best_metrics, stage_);
+  for (std::size_t i = 0; state_.archive && i < batch.scores.size(); ++i)
+    state_.archive->offer(batch.candidates[i], batch.scores[i]);
   if (batch.replayed) return;
   if (seconds() - refreshed_at_ > std::max(kRefreshSeconds, refresh_cost_ / kRefreshShare))
     refresh_directory();
@@ -272,8 +277,16 @@ void FitRun::search(const std::vector<StartPoint>& starts, const std::vector<dou
     points.insert(points.end(), point.begin(), point.end());
   }
   stage_ = "search";
+  state_.archive.emplace(space);
   minimize(FitObjective(space, scorer_), kUnlimited, points);
   if (!stop_requested()) state_.stopped_by = "converged";
+}
+
+/// From the search alone, so that it comes out the same when the run is resumed.
+void FitRun::measure_how_sure() {
+  if (!state_.archive || state_.stopped_by == "interrupted") return;
+  state_.certainty = measure_certainty(*state_.archive, plant_scorer_,
+                                       scorer_.evaluations() / kCertaintyShare, record_.seed);
 }
 
 /// Branch by branch, from the best of the search; what ended the search does not end this.
@@ -348,6 +361,7 @@ MaskMetrics FitRun::untrained_metrics() {
 }
 
 FitResult FitRun::finish() {
+  if (state_.branches.lanes.empty()) state_.best = scorer_.best();
   if (task_.growth.train) state_.metrics_untrained = untrained_metrics();
   refresh_directory();
   const auto best_start =
@@ -363,7 +377,8 @@ FitResult FitRun::finish() {
           .stopped_by = *state_.stopped_by,
           .best_start = best_start->name,
           .dimension = dimension_,
-          .failures = state_.failures};
+          .failures = state_.failures,
+          .certainty = state_.archive ? certainty_in_words(state_.certainty, *state_.archive) : ""};
 }
 
 FitResult FitRun::run(std::vector<StartPoint> starts, const std::optional<SpeciesSpace>& species) {
@@ -371,6 +386,7 @@ FitResult FitRun::run(std::vector<StartPoint> starts, const std::optional<Specie
   plant_scorer_.forgive_failures();
   if (species) search_species(*species, starts, scores);
   search(starts, scores);
+  measure_how_sure();
   if (will_refine()) refine();
   return finish();
 }
@@ -387,6 +403,7 @@ FitResult fit(const FitRecord& given, const fs::path& directory, const FitOption
   check_searches(record, make_search_space(table, table.defaults(), record.search), species);
   const std::vector<StartPoint> starts = starts_for(record, task);
   begin_run_directory(directory, {.record = record, .task = task});
+  for (const std::string& warning : task.warnings) options.on_warning(warning);
   return FitRun(record, task, directory, options).run(starts, species);
 }
 

@@ -27,6 +27,7 @@ struct FitOptions {
   RendererFactory make_renderer = make_scanline_renderer;
   std::function<bool()> stop_requested = [] { return false; };  ///< asked before each batch
   std::function<void(const FitProgress&)> on_progress = [](const FitProgress&) {};
+  std::function<void(const std::string&)> on_warning = [](const std::string&) {};  ///< before it begins
 };
 
 struct FitResult {
@@ -40,6 +41,7 @@ struct FitResult {
   std::string best_start;
   std::size_t dimension = 0;
   CandidateFailures failures = {};  ///< since the run began or was resumed
+  std::string certainty;  ///< in words; empty where it was not measured
 };
 
 /// Runs the fit. All input is checked before `directory` is made. Throws InputError, for the record, its

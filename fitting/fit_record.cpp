@@ -54,6 +54,7 @@ void read_target_options(const TomlSection& section, FitRecord& record) {
   record.target.side = parse_tree_side(section.text("tree_side"));
   record.target.speck_px = static_cast<int>(section.whole("speck_px"));
   record.target.fill_pinholes = section.flag("fill_pinholes");
+  record.target.one_tree = section.has("one_tree") && section.flag("one_tree");  // earlier versions took all
   record.target_hash = section.text("hash");
 }
 
@@ -112,9 +113,10 @@ std::string target_to_toml(const FitRecord& record) {
   const TargetOptions& target = record.target;
   return fmt::format(
       "\n[target]\nsize_px = {}\nseparation = \"{}\"\ntree_side = \"{}\"\nspeck_px = {}\nfill_pinholes = {}\n"
+      "one_tree = {}  # of several, the largest; else all as one\n"
       "hash = {}  # of the masks that were fitted\n",
       target.size_px, kMethodNames[static_cast<int>(target.method)],
-      kSideNames[static_cast<int>(target.side)], target.speck_px, target.fill_pinholes,
+      kSideNames[static_cast<int>(target.side)], target.speck_px, target.fill_pinholes, target.one_tree,
       quote_toml(record.target_hash));
 }
 

@@ -32,10 +32,15 @@ struct FitBudget {
 /// Rounds of refinement until the seconds are over.
 inline constexpr long kWhileTimeLasts = -1;
 
+/// The objective of `espalier fit`: distance and overlap lead; outline and gaps keep a fit from filling a
+/// porous crown (experiments/closeness.md).
+inline constexpr const char* kFitObjective =
+    "0.3*truncated_distance+0.2*iou+0.15*tolerant_iou+0.2*outline_iou+0.15*gap_iou";
+
 struct FitRecord {
   std::string model = "weber_penn";
   std::vector<ViewRecord> views;  ///< at least one
-  TargetOptions target{.size_px = 128};
+  TargetOptions target{.size_px = 128, .one_tree = true};
   std::string target_hash;  ///< of the masks the fit saw; empty until they are read
   std::string objective = "0.5*truncated_distance+0.5*iou";
   int fit_seeds = 1;  ///< trees per candidate, grown with seeds seed, seed + 1, …

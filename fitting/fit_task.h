@@ -36,6 +36,7 @@ struct FitTask {
   MaskObjective objective;
   std::shared_ptr<const Volume> envelope;  ///< what growth.prune_to points to, if the tree is trained
   RendererFactory make_renderer = make_scanline_renderer;
+  std::vector<std::string> warnings;  ///< what its pictures leave to be desired, a line each
 };
 
 /// The silhouettes of one candidate: seed by seed, and for each seed view by view. Empty masks where

@@ -23,7 +23,7 @@ void LoggedScorer::score(std::span<const ParameterValues> candidates, std::span<
   const bool improved = update_best(evaluated, scores.first(allowed));
   evaluations_ += static_cast<long>(allowed);
   on_batch_({evaluations_ - static_cast<long>(allowed), scores.first(allowed), batch_seconds_, improved,
-             replayed == allowed});
+             replayed == allowed, evaluated});
 }
 
 std::size_t LoggedScorer::replay(std::span<const ParameterValues> candidates, std::span<double> scores) {

@@ -26,7 +26,8 @@ struct ScoredBatch {
   std::span<const double> scores;  ///< of its true evaluations
   double seconds = 0;              ///< since the run began, when it was done
   bool improved = false;
-  bool replayed = false;  ///< all of it came from the log
+  bool replayed = false;                             ///< all of it came from the log
+  std::span<const ParameterValues> candidates = {};  ///< that have these scores
 };
 
 class LoggedScorer : public Scorer {

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "environment/picture_envelope.h"
+#include "fitting/trunk_room.h"
 #include "image/read_target.h"
 #include "models/models.h"
 
@@ -25,6 +26,8 @@ void read_views(FitRecord& record, FitTask& task) {
   for (const ViewRecord& view : record.views) {
     const TargetPicture target = read_target(view.picture, record.target);
     hash = hash_target(target, hash);
+    for (const std::string& fault : describe(target.faults, record.target.one_tree))
+      task.warnings.push_back(fmt::format("{}: {}", view.picture.string(), fault));
     task.views.push_back(
         make_target_view(target.mask, target.tree_height_px, view.view, target_height_m(record)));
   }
@@ -35,11 +38,20 @@ void read_views(FitRecord& record, FitTask& task) {
   record.target_hash = hash_text;
 }
 
-/// Keeps the tree inside of the targets' closed and filled outlines.
-void grow_into_pictures(FitTask& task) {
+/// Keeps the tree inside of the targets' closed and filled outlines; where these leave no room for its trunk,
+/// it grows without them.
+void grow_into_pictures(const FitRecord& record, FitTask& task) {
   std::vector<PictureOutline> outlines;
   for (const TargetView& view : task.views) outlines.push_back({view.camera, view.target.outline()});
   task.envelope = make_picture_envelope(std::move(outlines));
+  if (!leaves_room_for_trunk(*task.envelope, target_height_m(record))) {
+    task.envelope.reset();
+    task.warnings.push_back(
+        fmt::format("{}: its outline leaves no room for a trunk above the middle of the foot: fitted without "
+                    "--train-to-target",
+                    record.views.front().picture.string()));
+    return;
+  }
   task.growth.prune_to = task.envelope.get();
   task.growth.train = true;
 }
@@ -59,7 +71,7 @@ FitTask make_task(FitRecord& record, const Model* model) {
     throw_input_error(
         "--train-to-target: got model '{}', which cannot grow into a picture, expected weber_penn",
         record.model);
-  if (record.train_to_target) grow_into_pictures(task);
+  if (record.train_to_target) grow_into_pictures(record, task);
   return task;
 }
 

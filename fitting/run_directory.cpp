@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "fitting/certainty_files.h"
 #include "image/frame.h"
 #include "image/picture.h"
 #include "models/preset.h"
@@ -32,10 +33,10 @@ Picture enlarged(const Picture& picture, int factor) {
   return large;
 }
 
-/// The outlines a trained tree was grown into, as its preset names them.
+/// The outlines a trained tree was grown into, as its preset names them: files beside it.
 std::vector<GrownInto> grown_into(const RunState& state) {
   std::vector<GrownInto> pictures;
-  if (!state.record.train_to_target) return pictures;
+  if (!state.task.growth.train) return pictures;
   for (std::size_t i = 0; i < state.task.views.size(); ++i) {
     const TargetView& view = state.task.views[i];
     pictures.push_back({numbered({}, "outline", i), state.record.views[i].view, view.metres_per_px,
@@ -51,6 +52,39 @@ std::string best_to_toml(const RunState& state) {
                                      state.record.views.front().picture.filename().string(),
                                      state.record.optimizer, state.record.seed, 1 - state.best.score),
                          state.record.model, state.best.values, best_overrides(state), grown_into(state)});
+}
+
+std::string archived_to_toml(const RunState& state, std::size_t index) {
+  const ArchivedSolution& solution = state.archive->solutions()[index];
+  Preset preset;
+  preset.name = fmt::format("{}_{}", state.record.views.front().picture.stem().string(), index + 1);
+  preset.description =
+      fmt::format("solution {} of the search: fitness {:.4f}, {:.2f} from the best", index + 1,
+                  1 - solution.score, distance_between(solution, state.archive->solutions().front()));
+  preset.model = state.record.model;
+  preset.values = solution.values;
+  preset.grown_into = grown_into(state);
+  return preset_to_toml(preset);
+}
+
+/// The outlines that trained trees are grown into.
+void write_outlines(const fs::path& directory, const RunState& state) {
+  for (std::size_t i = 0; i < state.task.views.size() && state.task.growth.train; ++i)
+    write_mask_png(numbered(directory, "outline", i), state.task.views[i].target.outline());
+}
+
+/// archive/1.toml and so on, the best first; what an earlier state left there goes.
+void write_archive(const fs::path& directory, const RunState& state) {
+  if (!state.archive) return;
+  const fs::path folder = directory / "archive";
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  if (!fs::exists(folder / "outline.png", ignored)) write_outlines(folder, state);
+  const std::vector<ArchivedSolution>& solutions = state.archive->solutions();
+  for (std::size_t i = 0; i < solutions.size(); ++i)
+    write_file_atomically(folder / fmt::format("{}.toml", i + 1), archived_to_toml(state, i));
+  for (std::size_t i = solutions.size() + 1; fs::remove(folder / fmt::format("{}.toml", i), ignored); ++i) {
+  }
 }
 
 std::optional<FitOutcome> outcome_of(const RunState& state) {
@@ -79,6 +113,26 @@ void write_history(const fs::path& directory, const RunState& state) {
   write_file_atomically(directory / "trace.csv", trace_to_csv(state.trace.rows()));
   write_file_atomically(directory / "convergence.svg", chart_to_svg(chart));
   write_png(directory / "convergence.png", chart_to_picture(chart));
+}
+
+nlohmann::ordered_json archive_to_json(const SolutionArchive& archive) {
+  auto rows = nlohmann::ordered_json::array();
+  for (const ArchivedSolution& solution : archive.solutions())
+    rows.push_back({{"preset", fmt::format("archive/{}.toml", rows.size() + 1)},
+                    {"fitness", 1 - solution.score},
+                    {"distance", distance_between(solution, archive.solutions().front())}});
+  return rows;
+}
+
+nlohmann::ordered_json certainty_to_json(const CertaintyReport& report) {
+  nlohmann::ordered_json json = {{"tolerance", report.tolerance}, {"evaluations", report.evaluations}};
+  for (const Certainty certainty :
+       {Certainty::determined, Certainty::partly, Certainty::open, Certainty::no_effect}) {
+    auto& names = json[certainty_name(certainty)] = nlohmann::ordered_json::array();
+    for (const ParameterCertainty& row : report.parameters)
+      if (row.certainty == certainty) names.push_back(row.parameter.name);
+  }
+  return json;
 }
 
 }  // namespace
@@ -128,8 +182,7 @@ void begin_run_directory(const fs::path& directory, const RunState& state) {
   write_file_atomically(directory / "run.toml", record_to_toml(state.record, std::nullopt));
   for (std::size_t i = 0; i < state.task.views.size(); ++i)
     write_mask_png(numbered(directory, "target", i), state.task.views[i].target.mask());
-  for (std::size_t i = 0; i < state.task.views.size() && state.record.train_to_target; ++i)
-    write_mask_png(numbered(directory, "outline", i), state.task.views[i].target.outline());
+  write_outlines(directory, state);
 }
 
 void write_run_directory(const fs::path& directory, RunState& state) {
@@ -139,6 +192,8 @@ void write_run_directory(const fs::path& directory, RunState& state) {
     write_file_atomically(directory / kBranchesFile,
                           branch_rounds_to_json(state.branches, state.record.model));
   write_history(directory, state);
+  write_archive(directory, state);
+  if (state.archive) write_certainty(directory, state.certainty, *state.archive);
   write_file_atomically(directory / "summary.json", run_summary(state));
   write_file_atomically(directory / "run.toml", record_to_toml(state.record, outcome_of(state)));
 }
@@ -157,7 +212,7 @@ std::string run_summary(const RunState& state) {
   summary["branch_rounds"] = state.branches.rounds;
   summary["branch_steps"] = state.branches.steps;
   summary["kind"] = state.kind;
-  summary["trained_to_target"] = state.record.train_to_target;
+  summary["trained_to_target"] = state.task.growth.train;
   if (state.metrics_untrained) {
     summary["without_training"] = {{"iou", state.metrics_untrained->iou},
                                    {"tolerant_iou", state.metrics_untrained->tolerant_iou},
@@ -180,6 +235,9 @@ std::string run_summary(const RunState& state) {
     summary["failed_candidates"] = {{"count", state.failures.count}, {"first", state.failures.first}};
   if (state.record.height_m) summary["height_m"] = *state.record.height_m;
   for (const ViewRecord& view : state.record.views) summary["pictures"].push_back(view.picture.string());
+  if (!state.task.warnings.empty()) summary["warnings"] = state.task.warnings;
+  if (state.archive) summary["archive"] = archive_to_json(*state.archive);
+  if (!state.certainty.parameters.empty()) summary["parameters"] = certainty_to_json(state.certainty);
   for (const ScoredStart& start : state.starts)
     summary["starts"].push_back({{"name", start.name}, {"fitness", start.fitness}});
   return summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fitting/certainty.h"
 #include "fitting/fit_record.h"
 #include "fitting/fit_task.h"
 #include "fitting/logged_scorer.h"
@@ -37,6 +38,8 @@ struct RunState {
   std::optional<std::string> stopped_by = {};  ///< none while it runs
   std::size_t embree_disagreement_px = 0;
   CandidateFailures failures = {};  ///< since the run began or was resumed
+  std::optional<SolutionArchive> archive = {};  ///< of the search of the parameters, once it begins
+  CertaintyReport certainty = {};               ///< after it
 };
 
 /// What the branches of the best tree are overridden by.

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 bool varies(const CsvTable& results, const std::string& column) {
-  for (std::size_t i = 1; i < results.rows.size(); ++i)
+  for (std::size_t i = 1; i < results.rows.size() && results.has(column); ++i)
     if (results.text(i, column) != results.text(0, column)) return true;
   return false;
 }
@@ -22,7 +22,7 @@ bool varies(const CsvTable& results, const std::string& column) {
 /// What is compared: the optimiser, with the objective, space and start where these vary too.
 std::string method_of(const CsvTable& results, std::size_t row) {
   std::string method;
-  for (const char* column : {"optimizer", "objective", "space", "start"})
+  for (const char* column : {"optimizer", "objective", "space", "start", "trained"})
     if (varies(results, column)) method.append(method.empty() ? "" : ", ").append(results.text(row, column));
   return method.empty() ? results.text(row, "optimizer") : method;
 }

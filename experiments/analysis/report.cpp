@@ -8,6 +8,7 @@
 #include "experiments/analysis/draw_report.h"
 #include "experiments/analysis/fit_tables.h"
 #include "experiments/analysis/growth_tables.h"
+#include "experiments/analysis/score_sheet.h"
 #include "experiments/analysis/start_picture.h"
 #include "experiments/runner/experiment.h"
 #include "experiments/runner/experiment_directory.h"
@@ -43,6 +44,8 @@ void check_done(const fs::path& directory) {
 
 std::string title_of(const std::string& file) {
   static const std::map<std::string, std::string> titles{
+      {"score_groups.csv", "Score sheet by groups: means of the pictures' means"},
+      {"score_sheet.csv", "Score sheet: means over the seeds, the spread of the IoU over them"},
       {"results.csv", "All runs"},
       {"ranks.csv", "Ranks: methods that share a letter do not differ"},
       {"friedman.csv", "Friedman's test"},
@@ -147,7 +150,14 @@ fs::path write_report(const fs::path& directory, const ReportOptions& options) {
   if (words.kind == "fits") {
     const std::vector<FinishedFit> fits = read_finished_fits(directory);
     tables = fit_tables(fits);
-    meta["thumbnails"] = thumbnails_of(fits, directory);
+    if (const TargetGroups groups = read_groups(directory / "experiment.toml"); !groups.empty()) {
+      const ScoreSheet sheet = score_sheet(fits, groups, directory);
+      tables.emplace("score_groups.csv", sheet.groups), tables.emplace("score_sheet.csv", sheet.targets);
+      meta["score_sheet"] = sheet.pages;
+      meta["thumbnails"] = Json::array();
+    } else {
+      meta["thumbnails"] = thumbnails_of(fits, directory);
+    }
     meta["objective"] = objective_in(directory);
   }
   if (words.kind == "growth") tables = growth_tables(directory);

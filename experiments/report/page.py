@@ -52,6 +52,7 @@ details { margin: 1rem 0; } summary { cursor: pointer; font-weight: 600; }
 .runs figure { margin: 0; } .row { display: grid; grid-auto-columns: 1fr; grid-auto-flow: column; gap: .3rem; }
 .row img, .row span { width: 100%; background: #fff; display: block; }
 .row span { color: #555; font-size: .8rem; padding: .5rem; }
+.score { margin: 1rem 0; } .score figure { margin: 0; }
 pre { background: var(--card); border: 1px solid var(--line); border-radius: .4rem; padding: .8rem 1rem;
   overflow-x: auto; font-size: .85rem; }
 """
@@ -59,8 +60,8 @@ pre { background: var(--card); border: 1px solid var(--line); border-radius: .4r
 
 def write_page(directory, meta, stems):
     """stems: of the plots, in the order of the page; None where Matplotlib is missing."""
-    parts = [head(meta), source_beside_ours(meta), plots(directory, stems), tables(directory, meta),
-             thumbnails(directory, meta), repeat(meta), "</body>\n</html>\n"]
+    parts = [head(meta), source_beside_ours(meta), score_sheet(directory, meta), plots(directory, stems),
+             tables(directory, meta), thumbnails(directory, meta), repeat(meta), "</body>\n</html>\n"]
     (directory / "index.html").write_text("\n".join(part for part in parts if part), encoding="utf-8")
 
 
@@ -120,7 +121,7 @@ def tables(directory, meta):
                                            for item in found) if found else ""
 
 
-def table(path, title):
+def table(path, title, opened=False):
     header, *rows = read_rows(path)
     shown, left_out = rows[:SHOWN_ROWS], len(rows) - SHOWN_ROWS
     right = [any(row[i] for row in rows) and all(is_number(row[i]) for row in rows) for i in range(len(header))]
@@ -129,7 +130,7 @@ def table(path, title):
     more = f"<p class=\"soft\">The other {left_out} rows are in {text(path.name)}.</p>" if left_out > 0 else ""
     inner = f"<div class=\"scroll\"><table>\n{body}\n</table></div>{more}"
     summary = f"{text(title)} <span class=\"soft\">({text(path.name)}, {len(rows)} rows)</span>"
-    opened = " open" if len(rows) <= OPEN_ROWS else ""
+    opened = " open" if opened or len(rows) <= OPEN_ROWS else ""
     return f"<details{opened}><summary>{summary}</summary>\n{inner}</details>"
 
 
@@ -150,6 +151,34 @@ def short(value):
     if len(value) <= 6 or not is_number(value) or re.fullmatch(r"-?\d+", value):
         return value
     return f"{float(value):.0f}" if 1e4 <= abs(float(value)) < 1e9 else f"{float(value):.4g}"
+
+
+def score_sheet(directory, meta):
+    """The table by groups, and each target with its fits: silhouette, overlay, the tree from another side."""
+    sheet = meta.get("score_sheet")
+    if not sheet:
+        return ""
+    groups = table(directory / "score_groups.csv", "By groups", opened=True)
+    cards = "\n".join(score_card(directory, sheet["columns"], target) for target in sheet["targets"])
+    return (f"<h2>Score sheet</h2>\n<p class=\"soft\">Fits beside the picture's outline filled with no tree at all, which "
+            f"they must beat on IoU and on gaps. Pictures show the run of median fitness: target; then fit, overlay "
+            f"(agreement white, missed blue, surplus orange) and the tree from 45° aside.</p>\n{groups}\n{cards}")
+
+
+def score_card(directory, columns, target):
+    shown = [picture(directory, target.get("picture"), "target")]
+    for fit in target["fits"]:
+        shown += [picture(directory, fit.get(kind), kind) for kind in ["fit", "overlay", "tree"]]
+    labels = ["target"] + [fit["label"] if kind == 0 else "" for fit in target["fits"] for kind in range(3)]
+    cells = "".join(f"<figure>{image}<figcaption>{text(label)}</figcaption></figure>"
+                    for image, label in zip(shown, labels))
+    kept = [i for i, name in enumerate(columns) if name not in ("target", "group")]
+    right = [columns[i] not in ("method", "stage") for i in kept]
+    rows = [table_row("th", [columns[i].replace("_", " ") for i in kept], right)]
+    rows += [table_row("td", [row[i] for i in kept], right) for row in target["rows"]]
+    body = "\n".join(rows)
+    return (f"<section class=\"card score\"><h2>{text(target['target'])} <span class=\"soft\">{text(target['group'])}"
+            f"</span></h2>\n<div class=\"row\">{cells}</div>\n<div class=\"scroll\"><table>\n{body}\n</table></div></section>")
 
 
 def thumbnails(directory, meta):

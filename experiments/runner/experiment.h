@@ -33,6 +33,9 @@ struct SpaceDeclaration {
   std::string first;  ///< searched before it: "species:2", or nothing
 };
 
+/// Names of groups, and of their targets.
+using TargetGroups = std::map<std::string, std::vector<std::string>>;
+
 struct FitsDeclaration {
   std::vector<TargetDeclaration> targets;
   std::vector<OptimizerDeclaration> optimizers;
@@ -40,8 +43,11 @@ struct FitsDeclaration {
   std::vector<SpaceDeclaration> spaces;
   std::vector<std::string> starts;
   std::vector<Seed> seeds;
-  FitRecord record;      ///< what all runs share: budget, growth, size, view
-  int unseen_seeds = 0;  ///< trees of the result to grow with seeds that the fit never saw
+  FitRecord record;                     ///< what all runs share: budget, growth, size, view
+  std::vector<bool> trained = {false};  ///< to grow into the picture, or not
+  int threads = 1;                      ///< of each run; fewer runs at once then
+  TargetGroups groups;                  ///< for means; none: no score sheet
+  int unseen_seeds = 0;                 ///< trees of the result to grow with seeds that the fit never saw
 };
 
 /// Changes that a row or a column of a sheet makes.
@@ -91,8 +97,12 @@ struct Experiment {
 ExperimentWords read_words(const std::filesystem::path& path);
 
 /// Reads and checks everything that can be checked before a run: names, ranges, files. Throws InputError with
-/// file, line, key, got and expected.
-Experiment read_experiment(const std::filesystem::path& path);
+/// file, line, key, got and expected. settings: KEY=VALUE in TOML, each replaces a key of [fits], [pictures]
+/// or [growth]; the experiment's text then holds them.
+Experiment read_experiment(const std::filesystem::path& path, const std::vector<std::string>& settings = {});
+
+/// The groups of targets that the file names; none where it has none.
+TargetGroups read_groups(const std::filesystem::path& path);
 
 /// True where both describe the same runs: they may differ in title, figure, published, note and comments.
 bool same_runs(const std::string& text, const std::string& other_text);

@@ -58,7 +58,7 @@ struct FitCell {
   Row labels;
   std::string species;  ///< of the target, where it is drawn from one
   FitRecord record;
-  int unseen_seeds = 0;
+  int unseen_seeds = 0, threads = 1;
 };
 
 /// Whether two records ask for the same: a record on disk also knows its target's hash and its versions.
@@ -101,6 +101,7 @@ Measured measure(const FitResult& result, const FitCell& cell) {
                       {"iou", table_number(metrics.iou)},
                       {"tolerant_iou", table_number(metrics.tolerant_iou)},
                       {"outline_iou", table_number(metrics.outline_iou)},
+                      {"gap_iou", table_number(metrics.gap_iou)},
                       {"pixel_accuracy", table_number(metrics.pixel_accuracy)},
                       {"truncated_distance", table_number(metrics.truncated_distance)},
                       {"evaluations", fmt::format("{}", result.evaluations)},
@@ -117,7 +118,7 @@ Measured measure(const FitResult& result, const FitCell& cell) {
 
 std::optional<Measured> run_cell(const FitCell& cell, const fs::path& directory, const RunContext& context) {
   FitOptions options;
-  options.threads = 1;
+  options.threads = cell.threads;
   options.resume = can_resume(directory, cell.record);
   options.stop_requested = context.stop_requested;
   options.on_progress = [&](const FitProgress& progress) {
@@ -173,18 +174,25 @@ std::string set_space(FitCell& cell, const SpaceDeclaration& space) {
 
 std::string set_start(FitCell& cell, const std::string& start) { return cell.record.start = start; }
 
+std::string set_trained(FitCell& cell, bool trained) {
+  cell.record.train_to_target = trained;
+  return trained ? "trained" : "plain";
+}
+
 std::string set_seed(FitCell& cell, Seed seed) {
   cell.record.seed = seed;
   return fmt::format("{}", seed);
 }
 
 std::vector<FitCell> all_cells(const FitsDeclaration& fits, const std::vector<ReadyTarget>& targets) {
-  std::vector<FitCell> cells{{.record = fits.record, .unseen_seeds = fits.unseen_seeds}};
+  std::vector<FitCell> cells{
+      {.record = fits.record, .unseen_seeds = fits.unseen_seeds, .threads = fits.threads}};
   cells = expand(cells, "target", targets, set_target);
   cells = expand(cells, "optimizer", fits.optimizers, set_optimizer);
   cells = expand(cells, "objective", fits.objectives, set_objective);
   cells = expand(cells, "space", fits.spaces, set_space);
   cells = expand(cells, "start", fits.starts, set_start);
+  cells = expand(cells, "trained", fits.trained, set_trained);
   return expand(cells, "seed", fits.seeds, set_seed);
 }
 
@@ -192,10 +200,21 @@ std::vector<FitCell> all_cells(const FitsDeclaration& fits, const std::vector<Re
 
 Plan plan_fits(const FitsDeclaration& fits, const fs::path& directory) {
   Plan plan;
-  plan.label_columns = {"target", "optimizer", "objective", "space", "start", "seed"};
-  plan.result_columns = {
-      "fitness",     "iou",        "tolerant_iou",   "outline_iou", "pixel_accuracy", "truncated_distance",
-      "evaluations", "stopped_by", "unseen_fitness", "unseen_iou",  "truth_fitness",  "truth_iou"};
+  plan.label_columns = {"target", "optimizer", "objective", "space", "start", "trained", "seed"};
+  plan.threads_per_run = fits.threads;
+  plan.result_columns = {"fitness",
+                         "iou",
+                         "tolerant_iou",
+                         "outline_iou",
+                         "gap_iou",
+                         "pixel_accuracy",
+                         "truncated_distance",
+                         "evaluations",
+                         "stopped_by",
+                         "unseen_fitness",
+                         "unseen_iou",
+                         "truth_fitness",
+                         "truth_iou"};
   plan.time_columns = {"seconds", "evaluations"};
   std::vector<ReadyTarget> targets;
   for (const TargetDeclaration& target : fits.targets) targets.push_back(ready_target(target, directory));

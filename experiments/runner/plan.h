@@ -37,6 +37,7 @@ struct PlannedRun {
 struct Plan {
   std::vector<std::string> label_columns, result_columns, time_columns;
   std::vector<PlannedRun> runs;
+  int threads_per_run = 1;
   bool one_at_a_time = false;  ///< runs that measure time must not disturb each other
 };
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "core/error.h"
 #include "core/toml_section.h"
@@ -84,18 +85,23 @@ class Element {
 
 fs::path data_directory() { return ESPALIER_DATA_DIR; }
 
+std::vector<std::string> bundled_targets() {
+  std::vector<std::string> bundled;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(data_directory() / "targets", error))
+    if (entry.path().extension() == ".png") bundled.push_back(entry.path().stem());
+  std::sort(bundled.begin(), bundled.end());
+  return bundled;
+}
+
 /// A bundled target by name, or a picture by its path from the working directory or the experiment's file.
 fs::path find_picture(const Element& element, const std::string& name) {
   const fs::path beside = fs::path(element.section().source).parent_path() / name;
   std::error_code error;
   for (const fs::path& path : {data_directory() / "targets" / (name + ".png"), fs::path(name), beside})
     if (fs::is_regular_file(path, error)) return fs::absolute(path);
-  std::vector<std::string> bundled;
-  for (const auto& entry : fs::directory_iterator(data_directory() / "targets", error))
-    if (entry.path().extension() == ".png") bundled.push_back(entry.path().stem());
-  std::sort(bundled.begin(), bundled.end());
   throw_input_error("{}: got '{}', expected a picture or a bundled target like '{}'", element.place(), name,
-                    closest_name(name, bundled));
+                    closest_name(name, bundled_targets()));
 }
 
 TargetDeclaration read_target_declaration(const Element& element) {
@@ -160,7 +166,8 @@ std::vector<OptimizerDeclaration> read_optimizers(const TomlSection& fits) {
 std::vector<std::string> read_objectives(const TomlSection& fits, const std::string& otherwise) {
   if (!fits.has("objectives")) return {otherwise};
   filled_array(fits, "objectives");
-  const std::vector<std::string> objectives = fits.texts("objectives");
+  std::vector<std::string> objectives = fits.texts("objectives");
+  std::replace(objectives.begin(), objectives.end(), std::string("fit"), std::string(kFitObjective));
   for (const std::string& objective : objectives)
     located(fits, "objectives", [&] { return parse_objective(objective); });
   return objectives;
@@ -220,6 +227,49 @@ void read_view(const TomlSection& fits, View& view) {
   view = located(fits, "view", [&] { return parse_view("picture:" + fits.text("view")).view; });
 }
 
+/// Truth values, each once.
+std::vector<bool> read_trained(const TomlSection& fits) {
+  std::vector<bool> trained;
+  if (!fits.has("trained")) return {false};
+  for (const toml::node& node : filled_array(fits, "trained")) {
+    const auto value = node.value_exact<bool>();
+    if (!value) fits.fail("trained", "true and false");
+    trained.push_back(*value);
+  }
+  return trained;
+}
+
+/// A number of rounds, or "time": as many as time allows.
+long read_branch_rounds(const TomlSection& fits, const FitBudget& budget) {
+  if (!fits.has("branch_rounds")) return 0;
+  if (fits.node("branch_rounds").value_exact<std::string>() != "time")
+    return whole_between(fits, "branch_rounds", 0, 1'000'000'000, 0);
+  if (budget.seconds == 0) fits.fail("branch_rounds", "a whole number, or a limit of seconds too");
+  return kWhileTimeLasts;
+}
+
+TargetGroups groups_in(const TomlSection& fits) {
+  TargetGroups groups;
+  if (!fits.has("groups")) return groups;
+  const TomlSection section = fits.section("groups");
+  for (const auto& [name, members] : section.table)
+    groups[std::string(name.str())] = section.texts(name.str());
+  return groups;
+}
+
+/// Members are targets of the experiment, or bundled ones that it leaves out.
+TargetGroups read_declared_groups(const TomlSection& fits, const std::vector<TargetDeclaration>& targets) {
+  const TargetGroups groups = groups_in(fits);
+  std::vector<std::string> known = bundled_targets();
+  for (const TargetDeclaration& target : targets) known.push_back(target.name);
+  for (const auto& [group, members] : groups)
+    for (const std::string& member : members)
+      if (std::find(known.begin(), known.end(), member) == known.end())
+        throw_input_error("{}: got '{}' in group '{}', expected a target like '{}'", location(fits, "groups"),
+                          member, group, closest_name(member, known));
+  return groups;
+}
+
 /// Budget, growth, size: as the options of espalier fit.
 FitRecord read_shared_record(const TomlSection& fits) {
   FitRecord record;
@@ -233,14 +283,17 @@ FitRecord read_shared_record(const TomlSection& fits) {
   record.fit_seeds = static_cast<int>(whole_between(fits, "fit_seeds", 1, 1000, record.fit_seeds));
   record.growth.max_stems = positive(fits, "max_stems", record.growth.max_stems);
   record.growth.max_leaves = positive(fits, "max_leaves", record.growth.max_leaves);
+  record.budget.branch_rounds = read_branch_rounds(fits, record.budget);
+  record.kind = fits.text_or("kind", record.kind);
   if (fits.has("height")) record.height_m = positive(fits, "height", 10);
   return record;
 }
 
 FitsDeclaration read_fits(const TomlSection& fits) {
-  fits.expect_only({"targets", "optimizers", "objectives", "spaces", "starts", "seeds", "evaluations",
-                    "seconds", "target_fitness", "size", "view", "fit_seeds", "height", "max_stems",
-                    "max_leaves", "unseen_seeds"});
+  fits.expect_only(
+      {"targets",    "optimizers",     "objectives",    "spaces", "starts",    "seeds",   "evaluations",
+       "seconds",    "target_fitness", "size",          "view",   "fit_seeds", "height",  "max_stems",
+       "max_leaves", "unseen_seeds",   "branch_rounds", "kind",   "trained",   "threads", "groups"});
   FitsDeclaration declaration;
   declaration.record = read_shared_record(fits);
   declaration.targets = read_targets(fits);
@@ -249,6 +302,9 @@ FitsDeclaration read_fits(const TomlSection& fits) {
   declaration.spaces = read_spaces(fits);
   declaration.starts = read_starts(fits);
   declaration.seeds = read_seeds(fits);
+  declaration.trained = read_trained(fits);
+  declaration.threads = static_cast<int>(whole_between(fits, "threads", 1, 1024, 1));
+  declaration.groups = read_declared_groups(fits, declaration.targets);
   declaration.unseen_seeds = static_cast<int>(whole_between(fits, "unseen_seeds", 0, 1000, 0));
   return declaration;
 }
@@ -361,10 +417,29 @@ std::string kind_of(const TomlSection& root) {
   return kinds[0];
 }
 
-Document read_document(const fs::path& path) {
+/// The text with these keys of its one table replaced.
+std::string with_settings(const std::string& text, const std::string& source,
+                          const std::vector<std::string>& settings) {
+  if (settings.empty()) return text;
+  toml::table table = parse_toml(text, source);
+  toml::table& kind = *table[kind_of({table, source})].as_table();
+  for (const std::string& setting : settings) {
+    toml::table replaced;
+    located(fmt::format("--set {}", setting), [&] {
+      replaced = parse_toml(setting, "VALUE");
+      return 0;
+    });
+    for (const auto& [key, value] : replaced) kind.insert_or_assign(key, value);
+  }
+  std::ostringstream written;
+  written << toml::toml_formatter(table) << "\n";
+  return written.str();
+}
+
+Document read_document(const fs::path& path, const std::vector<std::string>& settings = {}) {
   Document document;
   ExperimentWords& words = document.words;
-  words.text = read_toml_text(path);
+  words.text = with_settings(read_toml_text(path), path.string(), settings);
   document.table = parse_toml(words.text, path.string());
   const TomlSection root{document.table, path.string()};
   std::vector<std::string> known = kWords;
@@ -385,8 +460,14 @@ Document read_document(const fs::path& path) {
 
 ExperimentWords read_words(const fs::path& path) { return read_document(path).words; }
 
-Experiment read_experiment(const fs::path& path) {
+TargetGroups read_groups(const fs::path& path) {
   const Document document = read_document(path);
+  const TomlSection root{document.table, path.string()};
+  return root.has("fits") ? groups_in(root.section("fits")) : TargetGroups{};
+}
+
+Experiment read_experiment(const fs::path& path, const std::vector<std::string>& settings) {
+  const Document document = read_document(path, settings);
   const TomlSection root{document.table, path.string()};
   Experiment experiment{document.words, {}, {}, {}};
   if (root.has("fits")) experiment.fits = read_fits(root.section("fits"));

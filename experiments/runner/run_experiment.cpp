@@ -118,7 +118,8 @@ std::vector<RunRow> begin_rows(const Plan& plan, const fs::path& directory) {
 
 int job_count(const Plan& plan, const RunnerOptions& options) {
   if (plan.one_at_a_time) return 1;
-  const int jobs = options.jobs > 0 ? options.jobs : static_cast<int>(std::thread::hardware_concurrency());
+  const int processors = static_cast<int>(std::thread::hardware_concurrency());
+  const int jobs = options.jobs > 0 ? options.jobs : processors / plan.threads_per_run;
   return std::clamp(jobs, 1, static_cast<int>(std::max<std::size_t>(1, plan.runs.size())));
 }
 

@@ -27,6 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 struct RunArguments {
   std::string file, out;
+  std::vector<std::string> settings;
   int jobs = 0;
   bool quiet = false;
 };
@@ -54,7 +55,7 @@ void print_outcome(const ExperimentOutcome& outcome, const fs::path& directory, 
 }
 
 void run_runs(const RunArguments& arguments) {
-  Experiment experiment = read_experiment(arguments.file);
+  Experiment experiment = read_experiment(arguments.file, arguments.settings);
   if (experiment.fits) experiment.fits->record.versions = recorded_versions();
   const fs::path directory =
       arguments.out.empty() ? fs::path("runs") / experiment.words.name : fs::path(arguments.out);
@@ -125,6 +126,11 @@ void add_run_command(CLI::App& experiment) {
   const auto arguments = std::make_shared<RunArguments>();
   command->add_option("file", arguments->file, "the experiment: a TOML file (see experiments/)")->required();
   command->add_option("--out", arguments->out, "directory to make, or to go on in (default: runs/NAME)");
+  command
+      ->add_option("--set", arguments->settings,
+                   "replace keys of the experiment's [fits], [pictures] or [growth]: 'seconds=2' 'seeds=[1]'")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--jobs", arguments->jobs, "runs at once; 0: one per processor")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

@@ -22,11 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDefaultPicture = "targets/fir.png";
 
-/// Distance and overlap lead there; outline and gaps keep a fit from filling a porous crown
-/// (experiments/closeness.md).
-constexpr const char* kObjective =
-    "0.3*truncated_distance+0.2*iou+0.15*tolerant_iou+0.2*outline_iou+0.15*gap_iou";
-
 struct FitArguments {
   FitRecord record;
   std::string image, out, resume, repeat;
@@ -34,7 +29,7 @@ struct FitArguments {
   std::string separation = "auto", tree_side = "auto";
   double height_m = 0;
   int threads = 0;
-  bool quiet = false;
+  bool quiet = false, all_trees = false;
 };
 
 std::string progress_text(const FitProgress& progress) {
@@ -117,6 +112,7 @@ FitRecord new_record(const CLI::App& command, const FitArguments& arguments) {
     record.optimizer_settings.insert(parse_assignment(text, "--set-optimizer"));
   record.target.method = parse_separation_method(arguments.separation);
   record.target.side = parse_tree_side(arguments.tree_side);
+  record.target.one_tree = !arguments.all_trees;
   if (command.count("--height") > 0) record.height_m = arguments.height_m;
   set_budget(command, record.budget);
   // The bundled presets are starts for the parametric model alone.
@@ -171,6 +167,7 @@ void print_result(const FitResult& result, const FitRecord& record, const fs::pa
                result.failures.count, result.failures.first);
   if (result.branch_steps > 0)
     fmt::print("{} branches refined in {} steps\n", result.overrides.nodes.size(), result.branch_steps);
+  if (!result.certainty.empty()) fmt::print("{}\n", result.certainty);
   fmt::print("files: {} (best.toml, best.png, overlay.png, convergence.png, summary.json)\n",
              directory.string());
 }
@@ -184,6 +181,8 @@ void run_fit(const CLI::App& command, const FitArguments& arguments) {
   options.on_progress = [&line](const FitProgress& progress) {
     line.show([&] { return progress_text(progress); });
   };
+  if (!arguments.quiet)
+    options.on_warning = [](const std::string& text) { fmt::print(stderr, "espalier: warning: {}\n", text); };
   FitRecord record = options.resume              ? resumed_record(command, arguments)
                      : !arguments.repeat.empty() ? repeated_record(arguments.repeat)
                                                  : new_record(command, arguments);
@@ -207,6 +206,8 @@ void add_target_options(CLI::App& command, FitArguments& arguments) {
   command.add_option("--height", arguments.height_m, "height of the tree, m (default: a nominal 10)");
   command.add_option("--separation", arguments.separation, "auto, alpha, luminance or background")
       ->capture_default_str();
+  command.add_flag("--all-trees", arguments.all_trees,
+                   "fit several trees of a picture as one (default: the largest alone)");
   command.add_option("--tree-side", arguments.tree_side, "auto, light or dark")->capture_default_str();
 }
 
@@ -219,7 +220,7 @@ void add_search_options(CLI::App& command, FitArguments& arguments) {
                   fmt::format("method of the search: {}", fmt::join(methods, ", ")))
       ->capture_default_str();
   command.add_option("--set-optimizer", arguments.settings, "a setting of the method: name=value");
-  record.objective = kObjective;
+  record.objective = kFitObjective;
   command.add_option("--objective", record.objective, "weighted sum of measures to minimise")
       ->capture_default_str();
   command.add_option("--fit-seeds", record.fit_seeds, "trees grown per candidate, averaged")
@@ -258,7 +259,10 @@ void add_run_options(CLI::App& command, FitArguments& arguments) {
                      "rounds of branch by branch refinement after the search (default: as time allows, 24 "
                      "without a limit of time; 0: none)");
   command.add_option("--target-fitness", budget.target_fitness, "stop once the best is this good, 0..1");
-  command.add_option("--out", arguments.out, "directory to make (default: runs/IMAGE-SEED)");
+  command.add_option(
+      "--out", arguments.out,
+      "directory to make (default: runs/IMAGE-SEED); there, best.toml is the tree, archive/ holds others "
+      "nearly as good, parameters.svg says which parameters the picture determines");
   command.add_option("--threads", arguments.threads, "0: one per processor; changes the speed only")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
@@ -266,17 +270,29 @@ void add_run_options(CLI::App& command, FitArguments& arguments) {
   CLI::Option* resume =
       command.add_option("--resume", arguments.resume, "go on with the run in this directory");
   CLI::Option* repeat = command.add_option("--repeat", arguments.repeat, "repeat the run in this directory");
-  for (const char* other : {"image",          "--views",
-                            "--out",          "--seed",
-                            "--size",         "--height",
-                            "--separation",   "--tree-side",
-                            "--optimizer",    "--set-optimizer",
-                            "--objective",    "--fit-seeds",
-                            "--model",        "--start",
-                            "--space",        "--space-evaluations",
-                            "--free",         "--fix",
-                            "--max-stems",    "--max-leaves",
-                            "--kind",         "--train-to-target",
+  for (const char* other : {"image",
+                            "--views",
+                            "--out",
+                            "--seed",
+                            "--size",
+                            "--height",
+                            "--separation",
+                            "--tree-side",
+                            "--all-trees",
+                            "--optimizer",
+                            "--set-optimizer",
+                            "--objective",
+                            "--fit-seeds",
+                            "--model",
+                            "--start",
+                            "--space",
+                            "--space-evaluations",
+                            "--free",
+                            "--fix",
+                            "--max-stems",
+                            "--max-leaves",
+                            "--kind",
+                            "--train-to-target",
                             "--branch-rounds"}) {
     resume->excludes(command.get_option(other));
     if (std::string(other) != "--out") repeat->excludes(command.get_option(other));

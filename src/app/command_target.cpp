@@ -16,6 +16,7 @@ namespace {
 
 struct TargetPaths {
   std::string image, output;
+  bool all_trees = false;
 };
 
 void run_target(const TargetPaths& paths, const TargetOptions& options) {
@@ -23,6 +24,8 @@ void run_target(const TargetPaths& paths, const TargetOptions& options) {
   write_mask_png(paths.output, target.mask);
   const double share = static_cast<double>(area_px(target.mask)) / options.size_px / options.size_px;
   fmt::print("{}: {}\n", paths.image, target.how);
+  for (const std::string& fault : describe(target.faults, options.one_tree))
+    fmt::print(stderr, "espalier: warning: {}: {}\n", paths.image, fault);
   fmt::print("{}: {}×{} px, the tree is {:.1f} px tall and covers {:.1f} %\n", paths.output, options.size_px,
              options.size_px, target.tree_height_px, 100 * share);
 }
@@ -36,7 +39,12 @@ void add_target_command(CLI::App& app) {
   command->add_option("-o,--output", paths->output, "the mask to write (PNG)")->required();
   const auto options = add_target_options(*command);
   command->add_option("--size", options->size_px, "side of the square mask in pixels")->capture_default_str();
-  command->callback([paths, options] { run_target(*paths, *options); });
+  command->add_flag("--all-trees", paths->all_trees,
+                    "show several trees of a picture as one (default: the largest alone)");
+  command->callback([paths, options] {
+    options->one_tree = !paths->all_trees;
+    run_target(*paths, *options);
+  });
 }
 
 }  // namespace espalier

@@ -1,6 +1,7 @@
 #include "image/clean.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <vector>
 
@@ -84,6 +85,25 @@ Mask large_pieces(const Mask& mask, std::size_t min_area_px, Connectivity connec
     for (int x = runs[i].begin; x < runs[i].end; ++x) large.set(x, runs[i].y);
   }
   return large;
+}
+
+std::vector<Mask> separate_pieces(const Mask& mask, std::size_t min_area_px, Connectivity connectivity) {
+  const std::vector<Run> runs = find_runs(mask);
+  RunSets sets = join_touching(runs, connectivity == Connectivity::eight ? 1 : 0);
+  std::map<std::size_t, std::vector<Run>> runs_of;
+  for (std::size_t i = 0; i < runs.size(); ++i) runs_of[sets.find(i)].push_back(runs[i]);
+  std::vector<Mask> pieces;
+  for (const auto& [set, members] : runs_of) {
+    std::size_t area = 0;
+    for (const Run& run : members) area += static_cast<std::size_t>(run.end - run.begin);
+    if (area < min_area_px) continue;
+    pieces.emplace_back(mask.width_px(), mask.height_px());
+    for (const Run& run : members)
+      for (int x = run.begin; x < run.end; ++x) pieces.back().set(x, run.y);
+  }
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Mask& a, const Mask& b) { return area_px(a) > area_px(b); });
+  return pieces;
 }
 
 Mask remove_specks(const Mask& mask, std::size_t speck_px) {

@@ -1,6 +1,7 @@
 // Cleans a mask: drops specks far from the tree, fills pinholes where asked. Areas in pixels.
 #pragma once
 #include <cstddef>
+#include <vector>
 
 #include "image/mask.h"
 
@@ -10,6 +11,9 @@ enum class Connectivity { four, eight };
 
 /// The pieces (connected sets of set pixels) of at least `min_area_px`.
 Mask large_pieces(const Mask& mask, std::size_t min_area_px, Connectivity connectivity);
+
+/// The same pieces one by one, the largest first.
+std::vector<Mask> separate_pieces(const Mask& mask, std::size_t min_area_px, Connectivity connectivity);
 
 /// Drops pieces (8-connected) under `speck_px` that no piece of that size has within a 64th of the
 /// picture's larger side: loose leaves at the crown's rim stay.

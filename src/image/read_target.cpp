@@ -74,11 +74,17 @@ TargetPicture read_target(const fs::path& path, const TargetOptions& options) {
   Separation separation{std::move(source.mask), std::move(source.how)};
   clean(separation, options);
   check_shows_a_tree(separation.mask, path.string(), separation.how);
+  const PictureFaults faults = picture_faults(separation.mask);
+  if (options.one_tree && faults.trees > 1) {
+    separation.mask = largest_tree(separation.mask);
+    separation.how += fmt::format("; the largest of {} trees", faults.trees);
+  }
   TargetPicture target = frame_mask(separation.mask, options.size_px, path.string());
   target.frame_px_per_source_px *= source.frame_px_per_source_px;
   target.source_width_px = source.source_width_px;
   target.source_height_px = source.source_height_px;
   target.how = fmt::format("{}; {}", separation.how, target.how);
+  target.faults = faults;
   return target;
 }
 

@@ -7,6 +7,7 @@
 
 #include "image/frame.h"
 #include "image/mask.h"
+#include "image/picture_faults.h"
 
 namespace espalier {
 
@@ -25,6 +26,7 @@ struct TargetOptions {
   TreeSide side = TreeSide::automatic;
   int speck_px = -1;           ///< pieces of the source smaller than this are dropped; -1: chosen by size
   bool fill_pinholes = false;  ///< fill holes smaller than speck_px
+  bool one_tree = false;       ///< of several trees in a picture, the largest; else all as one
 };
 
 struct TargetPicture {
@@ -32,7 +34,8 @@ struct TargetPicture {
   float tree_height_px = 0;  ///< from the top of the tree to its base, in the frame
   float frame_px_per_source_px = 1;
   int source_width_px = 0, source_height_px = 0;
-  std::string how;  ///< one line: how the mask was made
+  std::string how;       ///< one line: how the mask was made
+  PictureFaults faults;  ///< of the picture; only read_target looks for them
 };
 
 /// Throws InputError (one line, naming the file) for what is no readable picture, claims more than

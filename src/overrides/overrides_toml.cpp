@@ -58,20 +58,24 @@ void read_set(const TomlSection& node, const BranchPath& path, OverrideSet& set)
   }
 }
 
-void read_shared(const TomlSection& sets, Overrides& overrides) {
-  for (const auto& [name, node] : sets.table) {
-    const TomlSection set = sets.section(name.str());
-    set.expect_only(known_keys(false));
-    read_set(set, {}, overrides.shared[std::string(name.str())]);
-  }
-}
-
 /// Throws where the node's set is not there, or leads back to itself.
 void check_sharing(const TomlSection& node, const OverrideSet& set, const Overrides& overrides) {
   try {
     resolved_overrides(set, overrides);
   } catch (const InputError& error) {
     throw_input_error("{}: {}", toml_location(node.source, node.node("shares")), error.what());
+  }
+}
+
+void read_shared(const TomlSection& sets, Overrides& overrides) {
+  for (const auto& [name, node] : sets.table) {
+    const TomlSection set = sets.section(name.str());
+    set.expect_only(known_keys(false));
+    read_set(set, {}, overrides.shared[std::string(name.str())]);
+  }
+  for (const auto& [name, node] : sets.table) {  // also those that no branch shares
+    const TomlSection set = sets.section(name.str());
+    if (set.has("shares")) check_sharing(set, overrides.shared.at(std::string(name.str())), overrides);
   }
 }
 

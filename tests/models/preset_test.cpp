@@ -232,6 +232,10 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"BadSyntax", "flare = = 1", "got bad TOML"},
         Fault{"ExtendsNothing", "extends = \"acre\"",
               "key 'extends': got preset 'acre', expected a path or a bundled preset, the closest is 'acer'"},
+        Fault{"BranchDeeperThanTheTree", "branch = [{ path = \"0/1/2/3/4\", length = 1.0 }]",
+              "path: got '0/1/2/3/4' of 5 levels, expected at most"},
+        Fault{"BranchOnATrunkThatIsNotThere", "branch = [{ path = \"3/1\", length = 1.0 }]",
+              "path: got '3/1' on trunk 3, expected a trunk below 1"},
         Fault{"ExtendsAMissingFile", "extends = \"no.toml\"", "key 'extends': "}),
     [](const auto& info) { return info.param.law; });
 

@@ -101,6 +101,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "[shared.a]\nshares = \"b\"\n[shared.b]\nshares = \"a\"\n[[branch]]\npath = \"0\"\nshares = "
                 "\"a\"\n",
                 "no cycle"},
+        BadText{"CycleThatNoBranchShares", "[shared.a]\nshares = \"b\"\n[shared.b]\nshares = \"a\"\n",
+                "no cycle"},
+        BadText{"SetThatSharesItself", "[shared.a]\nshares = \"a\"\n",
+                "tree.toml:2: overrides: shared set 'a'"},
+        BadText{"SetThatSharesAnUnknownOne", "[shared.a]\nshares = \"x\"\n", "'x'"},
         BadText{"BranchIsNoArray", "branch = 3\n", "branch"}),
     [](const auto& info) { return info.param.name; });
 
