@@ -1,5 +1,5 @@
-// What a search changes of one branch: six offsets from what the model gives it, other random numbers, or its
-// removal. Written to, and read from, the overrides of its path, private to it.
+// What a search changes of one branch: seven offsets from what the model gives it, other random numbers, or
+// its removal. Written to, and read from, the overrides of its path, private to it.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -17,11 +17,12 @@ struct BranchDimension {
 };
 
 /// How far a branch may go from what the model gives it: much thinner, but not much thicker.
-inline constexpr std::array<BranchDimension, 6> kBranchDimensions{{
+inline constexpr std::array<BranchDimension, 7> kBranchDimensions{{
     {Quantity::length, Relation::factor, 1.1},
     {Quantity::down_angle, Relation::offset, 70},
     {Quantity::rotation, Relation::offset, 180},
     {Quantity::curvature, Relation::offset, 120},
+    {Quantity::curvature_back, Relation::offset, 90},
     {Quantity::position, Relation::offset, 0.3},
     {Quantity::radius, Relation::factor, 0.4, -4},
 }};

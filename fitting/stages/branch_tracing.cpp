@@ -43,7 +43,7 @@ void make_plain(const ParameterTable& table, const std::vector<MedialAxis>& axes
   set("ratio_power", 1.2);
   const std::map<const char*, double> of_level{
       {"base_size", 0},  {"down_angle", 50}, {"down_angle_v", 0}, {"rotate", 180},
-      {"rotate_v", 0},   {"length", 0.5},    {"length_v", 0},     {"taper", 1},
+      {"rotate_v", 0},   {"length", 0.5},    {"length_v", 0},     {"taper", 0.75},
       {"seg_splits", 0}, {"curve_res", 6},   {"curve", 0},        {"curve_back", 0},
       {"curve_v", 50},   {"bend_v", 0},      {"branch_dist", 0},  {"radius_mod", 1}};
   for (int level = 0; level < kDeepest; ++level)
@@ -139,6 +139,8 @@ class Tracer {
     GrowthSettings growth = task_.growth;
     growth.changes = &graph;
     growth.only_part = &part;
+    growth.prune_to = nullptr;  // what lies on an axis is inside of the outline
+    growth.train = false;
     plant_.clear();
     task_.model->generate(one.values, one.plant_seed, growth, plant_);
     return plant_.stems.size() > 0;

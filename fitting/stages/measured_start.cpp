@@ -9,7 +9,15 @@ namespace {
 
 constexpr double kBareTrunk = 0.04;  ///< of the height: a foot that shows the trunk, not the crown
 
-bool shows_trunk(const PictureReading& reading) { return reading.crown_base >= kBareTrunk; }
+bool shows_trunk(const PictureReading& reading) {
+  constexpr double kWidestTrunk = 0.45;  // of the crown's width
+  return reading.crown_base >= kBareTrunk && reading.trunk_width < kWidestTrunk * reading.crown_width;
+}
+
+/// By how much of its radius the trunk widens at the ground.
+double seen_flare(const PictureReading& reading) {
+  return std::clamp(reading.foot_width / reading.trunk_width - 1, 0.0, 2.0);
+}
 
 /// Radius over length of a trunk whose foot, flared, is as wide as the picture's.
 double seen_ratio(const PictureReading& reading) { return 0.45 * reading.trunk_width; }
@@ -44,6 +52,8 @@ std::map<std::string, SearchRange> measured_ranges(const PictureReading& reading
   ranges["ratio"] = shows_trunk(reading)
                         ? SearchRange{std::max(0.002, 0.5 * ratio), std::clamp(1.3 * ratio, 0.006, 0.15)}
                         : SearchRange{0.005, 0.03};
+  if (shows_trunk(reading)) ranges["flare"] = {0, std::max(0.1, seen_flare(reading))};
+  ranges["blossom_rate"] = {0, 0};  // a silhouette does not show them
   if (kind == TreeKind::leafy) {
     constexpr double kLongestLeaf = 0.035;  // of the height: longer ones fill crowns as blobs
     ranges["leaf_scale"] = {0.003 * height_m, kLongestLeaf * height_m};
@@ -54,7 +64,6 @@ std::map<std::string, SearchRange> measured_ranges(const PictureReading& reading
     ranges["length[2]"] = {0.05, 0.7};
     ranges["curve[0]"] = {-30, 30};
     ranges["curve_v[0]"] = {0, 50};
-    ranges["blossom_rate"] = {0, 0};  // a silhouette does not show them
   }
   return ranges;
 }
@@ -64,6 +73,7 @@ void take_measures(const Model& model, const GrowthBudget& budget, const Picture
   const ParameterTable& table = model.table();
   if (shows_trunk(reading)) {
     set_if_known(table, "ratio", seen_ratio(reading), values);
+    set_if_known(table, "flare", seen_flare(reading), values);
     set_if_known(table, "base_size[0]", std::min(reading.crown_base, 0.6), values);
   }
   const auto length = table.find("length[1]");

@@ -49,6 +49,24 @@ int runs_in_row(const Mask& mask, int y) {
   return runs;
 }
 
+int longest_run_px(const Mask& mask, int y) {
+  int longest = 0, run = 0;
+  for (int x = 0; x < mask.width_px(); ++x) {
+    run = mask.get(x, y) ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  return longest;
+}
+
+/// The narrowest row near the foot: above roots and grass, and between twigs that hang down to them.
+int trunk_width_px(const Mask& mask, const Box& box) {
+  constexpr double kFoot = 0.06;  ///< of the height
+  int narrowest = longest_run_px(mask, foot_row(box));
+  const int top = std::max(box.top, box.bottom - static_cast<int>(std::lround(kFoot * box.height())));
+  for (int y = top; y < box.bottom; ++y) narrowest = std::min(narrowest, longest_run_px(mask, y));
+  return std::max(narrowest, 1);
+}
+
 /// Rows from the foot up that are no wider than a trunk that leans or flares.
 int bare_height_px(const Mask& mask, const Box& box, int trunk_px) {
   constexpr double kTrunkOrCrown = 2.2;
@@ -87,10 +105,11 @@ PictureReading read_picture(const Mask& mask) {
   const Box box = box_of(mask);
   if (box.bottom < 0) throw_input_error("picture: got an empty mask, expected a tree");
   const double height = box.height();
-  const int trunk_px = extent_px(mask, foot_row(box));
+  const int trunk_px = trunk_width_px(mask, box);
   PictureReading reading;
   reading.height_px = box.height();
   reading.trunk_width = trunk_px / height;
+  reading.foot_width = longest_run_px(mask, box.bottom) / height;
   reading.crown_base = bare_height_px(mask, box, trunk_px) / height;
   reading.crown_width = box.width() / height;
   reading.trunks = runs_in_row(mask, foot_row(box));

@@ -6,10 +6,12 @@ namespace espalier {
 
 namespace {
 
-/// By its tip and by its middle's two ends, where the outlines of leaves are widest.
+constexpr float kWithin = 0.75f;  ///< of a leaf, or outlines would be bare where stems end
+
+/// By a point near its tip and by its middle's two ends, where the outlines of leaves are widest.
 bool fits(const Volume& volume, const Leaves& leaves, std::size_t i, float scale) {
-  const Vec3 along = leaves.axis[i] * (scale * leaves.length_m[i]);
-  const Vec3 across = leaves.side[i] * (0.5f * scale * leaves.width_m[i]);
+  const Vec3 along = leaves.axis[i] * (scale * kWithin * leaves.length_m[i]);
+  const Vec3 across = leaves.side[i] * (0.5f * scale * kWithin * leaves.width_m[i]);
   const Vec3 middle_m = leaves.position_m[i] + along * 0.5f;
   const float reach_m = 0.5f * scale * std::max(leaves.length_m[i], leaves.width_m[i]);
   if (volume.surely_contains_ball(middle_m, 1.2f * reach_m)) return true;

@@ -13,17 +13,18 @@ namespace espalier {
 
 /// What of a branch can be overridden. Lengths and radii in metres, angles in degrees.
 enum class Quantity : std::uint8_t {
-  length,       ///< of the stem
-  position,     ///< along the parent, 0 at its base to 1 at its tip
-  down_angle,   ///< away from the parent's direction
-  rotation,     ///< about the parent
-  curvature,    ///< total bend of the stem, downwards
-  radius,       ///< at the base
-  child_count,  ///< of stems or leaves borne
-  seed,         ///< a whole number that gives the branch and all on it other random numbers
-  removed       ///< 1: the branch and all on it are gone
+  length,          ///< of the stem
+  position,        ///< along the parent, 0 at its base to 1 at its tip
+  down_angle,      ///< away from the parent's direction
+  rotation,        ///< about the parent
+  curvature,       ///< total bend of the stem, downwards
+  curvature_back,  ///< bend of its second half, downwards: other than that of the first, the stem is an S
+  radius,          ///< at the base
+  child_count,     ///< of stems or leaves borne
+  seed,            ///< a whole number that gives the branch and all on it other random numbers
+  removed          ///< 1: the branch and all on it are gone
 };
-inline constexpr std::size_t kRelativeQuantities = 7;  ///< those that factors and offsets apply to
+inline constexpr std::size_t kRelativeQuantities = 8;  ///< those that factors and offsets apply to
 
 struct Modification {
   float replaced_by = std::numeric_limits<float>::quiet_NaN();  ///< NaN: not replaced

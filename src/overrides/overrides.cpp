@@ -16,9 +16,10 @@ struct QuantityRow {
 
 /// In the order of Quantity.
 constexpr QuantityRow kQuantities[] = {
-    {"length", 0, 1000},        {"position", 0, 1},           {"down_angle", -360, 360},
-    {"rotation", -720, 720},    {"curvature", -1440, 1440},   {"radius", 0, 100},
-    {"child_count", 0, 10'000}, {"seed", 0, 4'294'967'295.0}, {"removed", 0, 1},
+    {"length", 0, 1000},     {"position", 0, 1},         {"down_angle", -360, 360},
+    {"rotation", -720, 720}, {"curvature", -1440, 1440}, {"curvature_back", -1440, 1440},
+    {"radius", 0, 100},      {"child_count", 0, 10'000}, {"seed", 0, 4'294'967'295.0},
+    {"removed", 0, 1},
 };
 
 const QuantityRow& row_of(Quantity quantity) { return kQuantities[static_cast<std::size_t>(quantity)]; }

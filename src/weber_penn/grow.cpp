@@ -211,7 +211,7 @@ bool Growth::takes(const GrowingStem& stem) {
   const Offspring of = offspring(stem);
   const bool is_plain = !of.leaves && !of.stems;
   return uses_vectors_ && (is_plain || of.batch != nullptr) && is_shown(stem) &&
-         !stem.cursor.changes_below() && stem.extra_curve_deg == 0 && StemBatch::takes(stem.level, p_) &&
+         !stem.cursor.changes_below() && stem.extra_curve.is_none() && StemBatch::takes(stem.level, p_) &&
          has_plain_knots(stem.level, p_);
 }
 
@@ -253,7 +253,7 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
   child.parent = child.origin = parent_index;
   child.path_length = parent.path_length + 1;
   child.cursor = site.cursor;
-  child.extra_curve_deg = extra_curve_deg(change, level, p_);
+  child.extra_curve = extra_curve(change, level, p_);
   child.tree = parent.tree;
   child.turtle = site.turtle;
   child.offset_m = site.offset_m;
@@ -310,7 +310,7 @@ bool Growth::change_trunk(GrowingStem& trunk) const {
   trunk.tree.base_length_m = trunk.length_m * p_.base_size[0];
   trunk.turtle.roll_right((*change)[Quantity::rotation].apply(0));
   trunk.turtle.pitch_down((*change)[Quantity::down_angle].apply(0));
-  trunk.extra_curve_deg = extra_curve_deg(change, 0, p_);
+  trunk.extra_curve = extra_curve(change, 0, p_);
   return !change->removed;
 }
 

@@ -80,7 +80,7 @@ void train_stem(GrowingStem& stem, const WeberPennParameters& p, const Volume& v
     constexpr float kBends_deg[] = {25, -25, 50, -50, 80, -80, 120, -120};
     for (const float bend_deg : kBends_deg) {
       trained = stem;
-      trained.extra_curve_deg += bend_deg;
+      trained.extra_curve.whole_deg += bend_deg;
       if (shorten(trained, kShortestUnbent, p, volume)) break;
       trained.length_m = 0;
     }
@@ -90,7 +90,7 @@ void train_stem(GrowingStem& stem, const WeberPennParameters& p, const Volume& v
     if (!shorten(trained, kShortest, p, volume)) trained.length_m = 0;
   }
   stem.length_m = trained.length_m;
-  stem.extra_curve_deg = trained.extra_curve_deg;
+  stem.extra_curve = trained.extra_curve;
 }
 
 float pruned_length_m(const GrowingStem& stem, const WeberPennParameters& p, const Volume* volume) {

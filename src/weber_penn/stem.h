@@ -50,15 +50,21 @@ struct Tree {
   float base_length_m = 0;  ///< bare height of the trunk
 };
 
+/// Degrees by which a stem bends more than the parameters say.
+struct ExtraCurve {
+  float whole_deg = 0, back_deg = 0;  ///< over its length; over its second half
+  bool is_none() const { return whole_deg == 0 && back_deg == 0; }
+};
+
 struct GrowingStem {
   RandomKey key;
   int level = 0;
   std::int32_t parent = -1;  ///< index in Plant::stems
   std::int32_t origin = -1;  ///< likewise; for a clone: of the stem it splits off
   std::uint32_t child_index = 0;
-  int path_length = 1;        ///< parts of its path
-  ChangeCursor cursor;        ///< its overrides
-  float extra_curve_deg = 0;  ///< over the whole stem, by an override
+  int path_length = 1;     ///< parts of its path
+  ChangeCursor cursor;     ///< its overrides
+  ExtraCurve extra_curve;  ///< by an override, or by training
   Tree tree;
   Turtle turtle;        ///< at the start of the stem (for a clone: at the split)
   float length_m = 0;   ///< of the whole stem, also for a clone that starts midway

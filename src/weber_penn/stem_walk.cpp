@@ -27,7 +27,8 @@ void turn(GrowingStem& stem, int at, const WeberPennParameters& p) {
   const int segments = segment_count(p, stem.level);
   const float bend_deg = jitter_deg(stem, Draw::bend, at, p.bend_v[level_index(stem.level)], segments);
   if (bend_deg != 0) stem.turtle.turn_left(bend_deg);
-  const float extra_deg = stem.extra_curve_deg / static_cast<float>(segments);
+  const float back_deg = 2 * at > segments ? 2 * stem.extra_curve.back_deg : 0;
+  const float extra_deg = (stem.extra_curve.whole_deg + back_deg) / static_cast<float>(segments);
   stem.turtle.pitch_down(curve_angle_deg(stem, at, segments, p) + extra_deg - stem.split_correction_deg);
 }
 
@@ -140,7 +141,9 @@ bool change_clone(GrowingStem& clone, const WeberPennParameters& p) {
   clone.turtle.pitch_down((*change)[Quantity::down_angle].apply(0));
   clone.length_m = (*change)[Quantity::length].apply(clone.length_m);
   clone.radius_m = (*change)[Quantity::radius].apply(clone.radius_m);
-  clone.extra_curve_deg += extra_curve_deg(change, clone.level, p);
+  const ExtraCurve extra = extra_curve(change, clone.level, p);
+  clone.extra_curve.whole_deg += extra.whole_deg;
+  clone.extra_curve.back_deg += extra.back_deg;
   return !change->removed && clone.length_m > 0;
 }
 
@@ -177,11 +180,13 @@ Segment advance(GrowingStem& stem, Vec3 heading_at_start, int index, int segment
 
 }  // namespace
 
-float extra_curve_deg(const BranchChange* change, int level, const WeberPennParameters& p) {
-  if (change == nullptr) return 0;
+ExtraCurve extra_curve(const BranchChange* change, int level, const WeberPennParameters& p) {
+  if (change == nullptr) return {};
   const int i = level_index(level);
-  const float generated_deg = p.curve[i] + p.curve_back[i];
-  return (*change)[Quantity::curvature].apply(generated_deg) - generated_deg;
+  const float whole_deg = p.curve[i] + p.curve_back[i],
+              back_deg = p.curve_back[i] != 0 ? p.curve_back[i] : p.curve[i] / 2;
+  return {(*change)[Quantity::curvature].apply(whole_deg) - whole_deg,
+          (*change)[Quantity::curvature_back].apply(back_deg) - back_deg};
 }
 
 Vec3 segment_point(const Segment& s, float t) {

@@ -17,8 +17,8 @@ struct Segment {
 Vec3 segment_point(const Segment& segment, float t);
 Vec3 segment_tangent(const Segment& segment, float t);  ///< unit
 
-/// By how much an override bends a stem of this level more than the parameters do, over its whole length.
-float extra_curve_deg(const BranchChange* change, int level, const WeberPennParameters& parameters);
+/// By how much an override bends a stem of this level more than the parameters do.
+ExtraCurve extra_curve(const BranchChange* change, int level, const WeberPennParameters& parameters);
 
 class StemVisitor {
  public:

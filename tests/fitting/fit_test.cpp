@@ -69,8 +69,9 @@ std::string error_of_fit(const FitRecord& record, const fs::path& directory, con
 TEST(Fit, LeavesEveryFileOfARun) {
   const fs::path run = new_run("files");
   fit(small_record(40), run);
-  for (const char* name : {"run.toml", "trace.csv", "best.toml", "target.png", "best.png", "overlay.png",
-                           "convergence.svg", "convergence.png", "summary.json", "evaluations.bin", "archive"})
+  for (const char* name :
+       {"run.toml", "trace.csv", "best.toml", "target.png", "best.png", "overlay.png", "convergence.svg",
+        "convergence.png", "summary.json", "evaluations.bin", "archive"})
     EXPECT_TRUE(fs::exists(run / name)) << name;
   EXPECT_EQ(std::distance(fs::directory_iterator(run), {}), 11) << "no temporary file is left";
 }

@@ -64,12 +64,25 @@ TEST(MeasuredStart, WhatTheUserFreesHeSearchesInFull) {
 }
 
 TEST(MeasuredStart, AThickTrunkHasThinBranches) {
-  const PictureReading thick{.trunk_width = 0.3, .crown_base = 0.3},
-      thin{.trunk_width = 0.03, .crown_base = 0.3};
+  const PictureReading thick{.trunk_width = 0.3, .crown_base = 0.3, .crown_width = 0.8},
+      thin{.trunk_width = 0.03, .crown_base = 0.3, .crown_width = 0.8};
   const auto of_thick = measured_ranges(thick, TreeKind::leafy, 10);
   const auto of_thin = measured_ranges(thin, TreeKind::leafy, 10);
   EXPECT_GT(of_thick.at("ratio").lower, of_thin.at("ratio").upper);
   EXPECT_LT(of_thick.at("radius_mod[1]").upper, of_thin.at("radius_mod[1]").upper);
+}
+
+TEST(MeasuredStart, WhatIsAsWideAsTheCrownIsNoTrunk) {
+  const PictureReading crown{.trunk_width = 0.5, .crown_base = 1, .crown_width = 0.6};
+  EXPECT_LE(measured_ranges(crown, TreeKind::leafy, 10).at("ratio").upper, 0.03);
+}
+
+TEST(MeasuredStart, ATrunkFlaresNoMoreThanItsFoot) {
+  PictureReading straight{.trunk_width = 0.06, .foot_width = 0.06, .crown_base = 0.3, .crown_width = 0.8},
+      flared = straight;
+  flared.foot_width = 0.12;
+  EXPECT_LE(measured_ranges(straight, TreeKind::leafy, 10).at("flare").upper, 0.1);
+  EXPECT_NEAR(measured_ranges(flared, TreeKind::leafy, 10).at("flare").upper, 1, 1e-9);
 }
 
 TEST(MeasuredStart, AStartTakesTheWidthOfTheCrown) {

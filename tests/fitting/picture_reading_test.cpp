@@ -65,5 +65,15 @@ TEST(PictureReading, ATreeThatIsCutOffTouchesTheFrame) {
 
 TEST(PictureReading, AnEmptyMaskIsRefused) { EXPECT_THROW(read_picture(Mask(32, 32)), InputError); }
 
+TEST(PictureReading, BranchesOnTheGroundAreNoTrunk) {
+  Mask mask(64, 64);
+  for (int y = 4; y < 60; ++y)
+    for (int x = 0; x < 64; ++x)
+      if (std::abs(x - 32) <= 1 || (y < 57 && std::abs(x - 32) <= (y - 4) / 2)) mask.set(x, y);
+  EXPECT_NEAR(read_picture(mask).trunk_width, 3.0 / 56, 1e-9);
+  for (const int x : {5, 6, 58, 59}) mask.set(x, 58);  // tips beside it
+  EXPECT_NEAR(read_picture(mask).trunk_width, 3.0 / 56, 1e-9);
+}
+
 }  // namespace
 }  // namespace espalier

@@ -95,7 +95,7 @@ float length_of(const Curve& curve) {
 constexpr const char* kSpecies[] = {"quaking_aspen", "lombardy_poplar", "palm", "acer", "small_pine"};
 
 Override any_override() {
-  const auto quantity = static_cast<Quantity>(*rc::gen::inRange(0, 9));
+  const auto quantity = static_cast<Quantity>(*rc::gen::inRange(0, 10));
   const double part = *rc::gen::inRange(0, 1001) / 1000.0;
   const bool is_private = *rc::gen::arbitrary<bool>();
   switch (quantity) {
@@ -213,6 +213,23 @@ TEST(BranchOverrides, CurvatureBendsAStemByAsMuchAsItSays) {
   const double segments = values[table.index_of("curve_res[0]")];
   EXPECT_NEAR(std::acos(tip.z) * 180 / M_PI, 50 * (segments - 1) / segments,
               5);  // no turn after the last segment
+}
+
+TEST(BranchOverrides, ABendOfTheSecondHalfLeavesTheFirstWhereItWas) {
+  const ParameterValues values = species("quaking_aspen");
+  const Curve before = grown(values, {}).at({0});
+  const Curve after =
+      grown(values, with({0}, {Quantity::curvature_back, Relation::offset, 60, true})).at({0});
+  ASSERT_EQ(after.points.size(), before.points.size());
+  const std::size_t points = before.points.size(), middle = points / 2;
+  for (std::size_t i = 0; i < middle; ++i) EXPECT_LT(length(after.points[i] - before.points[i]), 1e-4) << i;
+  const auto tip = [&](const Curve& curve) {
+    return normalized(curve.points[points - 1] - curve.points[points - 2]);
+  };
+  // No turn after the last segment, and none less than half a turn at the middle.
+  const double turned_deg = std::acos(dot(tip(after), tip(before))) * 180 / M_PI;
+  EXPECT_GT(turned_deg, 30);
+  EXPECT_LT(turned_deg, 65);
 }
 
 TEST(BranchOverrides, ASeedRenewsTheBranchAndAllOnIt) {
