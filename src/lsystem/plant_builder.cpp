@@ -5,12 +5,14 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "lsystem/copy_plant.h"
 #include "lsystem/frames.h"
 #include "lsystem/limits.h"
 #include "lsystem/stem_splines.h"
 #include "lsystem/surfaces.h"
 #include "lsystem/triangle_leaves.h"
 #include "lsystem/turtle_walk.h"
+#include "plant/leaf_outlines.h"
 
 namespace espalier::lsystem {
 
@@ -18,6 +20,7 @@ namespace {
 
 constexpr std::size_t kMostVertices = 2000;     // of a polygon: cutting it takes the square of it
 constexpr std::size_t kMostLeaves = 5'000'000;  // and triangles of a plant
+constexpr std::size_t kMostCopiedKnots = 10'000'000;
 
 /// Collects what the turtle draws.
 class Builder : public SilentVisitor {
@@ -136,8 +139,10 @@ class Builder : public SilentVisitor {
     if (surface == kLeafSurface) return add_leaf(turtle, length, across, LeafKind::leaf);
     if (surface == kBlossomSurface) return add_leaf(turtle, length, across, LeafKind::blossom);
     if (surface < kFirstOwnSurface) return add_triangles(turtle, outline_triangles(surface), length, across);
-    const auto own = static_cast<std::size_t>(surface - kFirstOwnSurface);
-    add_triangles(turtle, settings_.appearance->surfaces[own].triangles, scale, width);
+    const NamedSurface& own =
+        settings_.appearance->surfaces[static_cast<std::size_t>(surface - kFirstOwnSurface)];
+    if (own.plant) return add_copy(turtle, *own.plant, scale, width);
+    add_triangles(turtle, own.triangles, scale, width);
   }
 
   /// F(length, width, leaves, down angle, roll angle): leaves spread evenly along the segment, each turned
@@ -213,10 +218,30 @@ class Builder : public SilentVisitor {
     check_count();
     triangles_.push_back({triangle, color});
   }
-  void check_count() const {
-    if (triangles_.size() + plant_.leaves.size() >= kMostLeaves)
+  void check_count(std::size_t more_leaves = 1, std::size_t more_copied_knots = 0) const {
+    if (triangles_.size() + plant_.leaves.size() + more_leaves > kMostLeaves)
       throw TooManyModules(
           fmt::format("got more than {} leaves and triangles of surfaces, expected fewer", kMostLeaves));
+    if (copied_knots_ + more_copied_knots > kMostCopiedKnots)
+      throw TooManyModules(
+          fmt::format("got copies of plants with more than {} knots, expected fewer", kMostCopiedKnots));
+  }
+
+  /// A copy of a plant, as if its turtle started with the position and the directions of this one.
+  void add_copy(const Turtle& turtle, const Plant& plant, double scale, double width) {
+    const bool as_leaves = plant.leaf_shape == settings_.leaf_shape;
+    const std::size_t pieces = as_leaves ? 1 : leaf_outline(plant.leaf_shape).triangles.size();
+    check_count(pieces * plant.leaves.size(), plant.knots.size());
+    copied_knots_ += plant.knots.size();
+    const auto metres = [&](const Vector& v, double factor) {
+      return Vec3{static_cast<float>(v.x * factor), static_cast<float>(v.y * factor),
+                  static_cast<float>(v.z * factor)} *
+             unit_;
+    };
+    const CopyFrame frame{point(turtle.position), metres(turtle.left, -width), metres(turtle.up, -width),
+                          metres(turtle.heading, scale)};
+    copy_stems(plant, frame, axis_.stem >= 0 ? axis_.stem : axis_.parent, stems_);
+    copy_leaves(plant, frame, settings_.leaf_shape, plant_.leaves, triangles_);
   }
 
   /// A surface of triangles, in the frame of a leaf.
@@ -241,6 +266,7 @@ class Builder : public SilentVisitor {
   std::vector<Axis> stack_;
   std::vector<std::vector<Vec3>> polygons_;  ///< those that are open
   std::vector<ColoredTriangle> triangles_;
+  std::size_t copied_knots_ = 0;
   Frames frames_;
   const bool has_frames_;
 };

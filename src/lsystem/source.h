@@ -15,7 +15,8 @@ struct Source {
   std::string label;             ///< what messages call the file
   std::filesystem::path folder;  ///< where its includes are
   std::string text;
-  bool may_read_files = true;  ///< meshes and pictures in the folder
+  bool may_read_files = true;   ///< meshes and pictures in the folder
+  bool may_have_plants = true;  ///< of other L-systems; those have none
 };
 
 /// A place in a file. Files are shared, because included ones outlive their reading.
