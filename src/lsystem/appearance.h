@@ -18,6 +18,7 @@ struct NamedSurface {
 };
 
 struct Appearance {
+  std::string file;               ///< what messages call the L-system
   std::vector<PartColor> colors;  ///< colour i is colors[i - 1]; 0 leaves a part the colour of its material
   std::vector<NamedSurface> surfaces;
 

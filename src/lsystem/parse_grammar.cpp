@@ -35,6 +35,7 @@ class Parser {
   }
 
   void finish(const std::shared_ptr<const Source>& source) {
+    appearance_->file = source->label;
     if (appearance_->colors.empty()) appearance_->colors = default_colors();
     if (!taken_.contains("fraction") && !grammar_.names.from_lua.contains("fraction"))
       grammar_.names.globals.push_back("fraction");
@@ -214,6 +215,7 @@ class Parser {
     const fs::path path = position.source->folder / name;
     if (!included_.insert(name).second)
       throw_at(position, "got include \"{}\" a second time, expected it once", name);
+    check_is_no_pipe(path);
     auto source = std::make_shared<Source>(Source{path.string(), position.source->folder, read_file(path),
                                                   true, position.source->may_have_plants});
     parse(std::move(source), true);

@@ -20,7 +20,23 @@ namespace {
 
 constexpr std::size_t kMostVertices = 2000;     // of a polygon: cutting it takes the square of it
 constexpr std::size_t kMostLeaves = 5'000'000;  // and triangles of a plant
+constexpr int kMostLeavesOfSegment = 10'000;
 constexpr std::size_t kMostCopiedKnots = 10'000'000;
+
+/// 0 · x is 0 only where x is finite: one test for all of them.
+float zero_unless_infinite(const std::vector<Vec3>& points) {
+  float sum = 0;
+  for (const Vec3& p : points) sum += 0 * (p.x + p.y + p.z);
+  return sum;
+}
+
+void check_places(const Plant& plant) {
+  float sum = zero_unless_infinite(plant.knots.handle_in_m) + zero_unless_infinite(plant.knots.handle_out_m) +
+              zero_unless_infinite(plant.leaves.position_m);
+  for (const float radius_m : plant.knots.radius_m) sum += 0 * radius_m;
+  if (sum != 0)
+    throw_input_error("the string draws what is too large or too far away, expected less than 1e30 m");
+}
 
 /// Collects what the turtle draws.
 class Builder : public SilentVisitor {
@@ -92,6 +108,7 @@ class Builder : public SilentVisitor {
     plant_.leaf_shape = settings_.leaf_shape;
     plant_.blossom_shape = settings_.blossom_shape;
     if (!triangles_.empty()) draw_as_triangles(triangles_, plant_);
+    check_places(plant_);
     const Bounds box = bounds(plant_);
     plant_.tree_scale_m = std::max(box.upper.z - box.lower.z, 0.0f);
   }
@@ -148,7 +165,10 @@ class Builder : public SilentVisitor {
   /// F(length, width, leaves, down angle, roll angle): leaves spread evenly along the segment, each turned
   /// about it from the one before [CH §3.1.2].
   void add_leaves(const Turtle& turtle, const Step& step) {
-    const int count = static_cast<int>(std::clamp(step.values[2], 0.0, 1e5));
+    if (step.values[2] > kMostLeavesOfSegment)
+      throw_input_error("module {} of the string: got {} leaves on a segment, expected at most {}",
+                        step.module, step.values[2], kMostLeavesOfSegment);
+    const int count = static_cast<int>(std::max(step.values[2], 0.0));
     Rotation down, roll;
     down.set(-step.value_or(3, 45));
     roll.set(step.value_or(4, 140));
@@ -282,9 +302,16 @@ bool has_frames(const SymbolTable& alphabet) {
 void build_plant(const ModuleString& string, const SymbolTable& alphabet, const Settings& settings,
                  Plant& plant) {
   plant.clear();
-  Builder builder(settings, has_frames(alphabet), plant);
-  TurtleWalk(settings, builder).run(string, alphabet);
-  builder.finish();
+  try {
+    Builder builder(settings, has_frames(alphabet), plant);
+    TurtleWalk(settings, builder).run(string, alphabet);
+    builder.finish();
+  } catch (const TooManyModules&) {
+    throw;
+  } catch (const InputError& error) {
+    if (!settings.appearance) throw;
+    throw_input_error("{}: {}", settings.appearance->file, error.what());
+  }
 }
 
 }  // namespace espalier::lsystem

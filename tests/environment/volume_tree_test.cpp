@@ -135,6 +135,8 @@ std::string error_of(const std::string& text) {
 TEST(VolumeTree, ErrorsNameColumnGotAndExpected) {
   const fs::path open = file("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
                  text = file("text.png", "no picture");
+  const fs::path many =
+      file("many.ply", "ply\nformat ascii 1.0\nelement vertex 99999999\nproperty float x\nend_header\n0\n");
   const std::pair<std::string, std::string> faults[] = {
       {"cube(0,0,0, 1)",
        "column 1: got the unknown volume 'cube', expected one declared before, or one of box"},
@@ -149,6 +151,7 @@ TEST(VolumeTree, ErrorsNameColumnGotAndExpected) {
       {"mesh(rock)", "column 6: got 'r', expected '\"'"},
       {"mesh(\"nowhere.obj\")", "nowhere.obj': no such file"},
       {fmt::format("mesh(\"{}\")", open.string()), "3 of 3 edges are open"},
+      {fmt::format("mesh(\"{}\")", many.string()), "got 'element vertex 99999999' in a file of"},
       {fmt::format("picture(\"{}\", 3)", text.string()), "_text.png"},
       {"spiral(0,0,0, 1,1, 1,1, 2)", "spiral: shrink is 2"}};
   for (const auto& [fault, expected] : faults)
