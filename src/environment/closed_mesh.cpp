@@ -10,11 +10,13 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <fstream>
 #include <string>
 #include <system_error>
 #include <tuple>
 
 #include "core/error.h"
+#include "environment/ply_counts.h"
 
 namespace espalier {
 
@@ -41,10 +43,24 @@ const MeshFormat& format_of(const fs::path& path) {
                     path.string(), extension);
 }
 
+void check_head(const fs::path& path) {
+  std::string begin(4096, ' ');
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(stream.gcount()));
+  std::error_code none;
+  try {
+    check_ply_counts(begin, fs::file_size(path, none));
+  } catch (const InputError& error) {
+    throw_input_error("mesh '{}': {}", path.string(), error.what());
+  }
+}
+
 const aiScene& import_scene(Assimp::Importer& importer, const fs::path& path) {
   std::error_code none;
   if (!fs::exists(path, none)) throw_input_error("mesh '{}': no such file", path.string());
   if (!fs::is_regular_file(path, none)) throw_input_error("mesh '{}': not a file", path.string());
+  check_head(path);
   const aiScene* scene =
       importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (!scene)

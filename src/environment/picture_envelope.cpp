@@ -37,8 +37,7 @@ class OneOutline {
         outer_distance_px_(distances_to_set_px(picture.outline)),
         base_depth_m_(project(picture.camera, {0, 0, 0}).depth_m),
         limits_depth_(limits_depth) {
-    for (int y = 0; y < picture.outline.height_px(); ++y)
-      half_widths_px_.push_back(extent_of_row(picture.outline, y).half_width_px());
+    for (int y = 0; y < picture.outline.height_px(); ++y) add_row(extent_of_row(picture.outline, y), y);
   }
 
   bool contains(Vec3 point_m) const {
@@ -71,8 +70,24 @@ class OneOutline {
                 y = std::clamp(seen.y_px, 0.f, static_cast<float>(camera_.height_px) - 0.5f);
     const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width_px) +
                               static_cast<std::size_t>(x);
-    // Beyond the frame: at least as far as the frame, and as what is set is from its border.
-    return std::max(std::hypot(seen.x_px - x, seen.y_px - y), outer_distance_px_[pixel] - 0.5f);
+    const float in_frame_px = outer_distance_px_[pixel] - 0.5f;
+    if (x == seen.x_px && y == seen.y_px) return in_frame_px;
+    // Beyond the frame: what is set is beyond the nearest place of the frame, and in the rectangle around it.
+    return std::max(std::hypot(seen.x_px - x, seen.y_px - y, in_frame_px), distance_to_rectangle_px(seen));
+  }
+
+  void add_row(const RowExtent& extent, int y) {
+    half_widths_px_.push_back(extent.half_width_px());
+    if (extent.right_px < extent.left_px) return;
+    left_px_ = std::min(left_px_, extent.left_px);
+    right_px_ = std::max(right_px_, extent.right_px);
+    top_px_ = std::min(top_px_, static_cast<float>(y));
+    bottom_px_ = static_cast<float>(y + 1);
+  }
+
+  float distance_to_rectangle_px(const PicturePoint& seen) const {
+    return std::hypot(std::max({0.f, left_px_ - seen.x_px, seen.x_px - right_px_}),
+                      std::max({0.f, top_px_ - seen.y_px, seen.y_px - bottom_px_}));
   }
 
   float distance_px(const PicturePoint& seen) const {
@@ -113,6 +128,8 @@ class OneOutline {
   std::vector<float> distance_px_;        ///< of each pixel to the nearest unset one
   std::vector<float> outer_distance_px_;  ///< and to the nearest set one
   std::vector<float> half_widths_px_;
+  static constexpr float kFar = std::numeric_limits<float>::infinity();
+  float left_px_ = kFar, right_px_ = -kFar, top_px_ = kFar, bottom_px_ = -kFar;  ///< around what is set
   float base_depth_m_;
   bool limits_depth_;
 };

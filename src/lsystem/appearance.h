@@ -1,7 +1,8 @@
 // What a file says of how its strings look, besides its settings: the table of colours, and the surfaces that
-// it names. Colours are sRGB; surfaces are triangles in the frame of a leaf: x to its right, y along it, z up
-// from it, in units, the origin where it is fixed.
+// it names: also whole plants, of which copies are placed. Colours are sRGB; surfaces are triangles in the
+// frame of a leaf: x to its right, y along it, z up from it, in units, the origin where it is fixed.
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,11 @@ namespace espalier::lsystem {
 struct NamedSurface {
   std::string name;
   std::vector<Triangle> triangles;
+  std::shared_ptr<const Plant> plant;  ///< instead of triangles: in units, as its turtle drew it
 };
 
 struct Appearance {
+  std::string file;               ///< what messages call the L-system
   std::vector<PartColor> colors;  ///< colour i is colors[i - 1]; 0 leaves a part the colour of its material
   std::vector<NamedSurface> surfaces;
 

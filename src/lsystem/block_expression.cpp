@@ -49,7 +49,11 @@ BlockExpression::BlockExpression(const Expression& expression, std::span<const s
     : source_(&expression) {
   workshop.lua.check_expression(expression.text, expression.position);
   check_names(expression, columns, workshop);
-  program_ = compile_program(expression.text, columns, workshop.grammar.names, workshop.random_sites);
+  try {
+    program_ = compile_program(expression.text, columns, workshop.grammar.names, workshop.random_sites);
+  } catch (const InputError& error) {
+    throw_at(expression.position, "'{}': {}", expression.text, error.what());
+  }
   if (program_ && program_->is_condition != is_condition) program_.reset();
   if (!program_) function_ = workshop.functions.compile(expression, columns, is_condition);
 }

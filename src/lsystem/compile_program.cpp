@@ -5,6 +5,7 @@
 #include <charconv>
 #include <map>
 
+#include "core/error.h"
 #include "lsystem/program.h"
 
 namespace espalier::lsystem {
@@ -264,7 +265,9 @@ class Compiler {
 
   Value call(const LetFunction& function) {
     const std::vector<Value> values = arguments();
-    if (values.size() != function.parameters.size()) throw NotArithmetic{};
+    if (values.size() != function.parameters.size())
+      throw_input_error("{}: got {} arguments, expected {}", function.name, values.size(),
+                        function.parameters.size());
     Scope scope;
     for (std::size_t i = 0; i < values.size(); ++i) scope[function.parameters[i]] = values[i];
     return compile(function.body, scope);
@@ -307,10 +310,14 @@ class Compiler {
       program_.draws = true;
       return {Type::number, emit(Op::random, literal(random_sites_++))};
     }
-    if (const auto one = kUnary.find(name); one != kUnary.end() && values.size() == 1)
-      return {Type::number, emit(one->second, number(values[0]))};
+    if (const auto one = kUnary.find(name); one != kUnary.end()) {
+      if (values.size() == 1) return {Type::number, emit(one->second, number(values[0]))};
+      if (name == "log" && values.size() == 2) throw NotArithmetic{};  // to a base
+      throw_input_error("{}: got {} arguments, expected 1", name, values.size());
+    }
     const auto folded = kFolded.find(name);
-    if (folded == kFolded.end() || values.empty()) throw NotArithmetic{};
+    if (folded == kFolded.end()) throw NotArithmetic{};
+    if (values.empty()) throw_input_error("{}: got no arguments, expected some", name);
     Operand result = number(values[0]);
     for (std::size_t i = 1; i < values.size(); ++i) result = emit(folded->second, result, number(values[i]));
     return {Type::number, result};

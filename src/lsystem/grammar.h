@@ -114,8 +114,9 @@ struct Grammar {
   bool follow_branches = false;  ///< right contexts look into branches too
 };
 
-/// Reads a file and what it includes. Throws InputError with file, line, column, got and expected.
-Grammar read_grammar(const std::string& path);
+/// Reads a file and what it includes, and grows the plants that it names. Throws InputError with file, line,
+/// column, got and expected.
+Grammar read_grammar(const std::string& path, bool may_have_plants = true);
 
 /// Reads an L-system from text; messages call it `label`. Includes are refused; so are meshes and pictures
 /// without a folder.

@@ -35,14 +35,15 @@ void* allocate(void* data, void* block, std::size_t old_size, std::size_t new_si
 }
 
 template <typename Usage>
-void count_instructions(lua_State* state, lua_Debug*) {
+void count_instructions(lua_State* state, lua_Debug* where) {
   void* data = nullptr;
   lua_getallocf(state, &data);
   auto* usage = static_cast<Usage*>(data);
   usage->instructions += kInstructionsPerCheck;
-  if (usage->instructions > usage->limits.lua_instructions)
-    luaL_error(state, "Lua ran for more than %d instructions, expected it to end sooner",
-               static_cast<int>(usage->limits.lua_instructions));
+  if (usage->instructions <= usage->limits.lua_instructions) return;
+  lua_getinfo(state, "Sl", where);
+  luaL_error(state, "%s:%d: Lua ran for more than %d instructions, expected it to end sooner",
+             where->short_src, where->currentline, static_cast<int>(usage->limits.lua_instructions));
 }
 
 /// Assigning to a global variable that is not there.
@@ -132,7 +133,18 @@ void LuaState::run(const std::string& code, const std::string& label) {
   const std::string name = "=" + label;
   if (luaL_loadbufferx(state_, code.data(), code.size(), name.c_str(), "t") != 0)
     throw InputError(take_message(state_));
-  call(0, 0);
+  call_as(label, 0);
+}
+
+/// Some errors of Lua, of its memory or its stack, come without a place.
+void LuaState::call_as(const std::string& label, int arguments) {
+  try {
+    call(arguments, 0);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    if (message.find(':') != std::string::npos) throw;
+    throw_input_error("{}: {}", label, message);
+  }
 }
 
 LuaState::Function LuaState::make_function(const std::string& code, const std::string& label) {
@@ -175,7 +187,7 @@ void LuaState::call_hook(const std::string& name, std::span<const double> argume
     return;
   }
   for (const double value : arguments) lua_pushnumber(state_, value);
-  call(static_cast<int>(arguments.size()), 0);
+  call_as(name, static_cast<int>(arguments.size()));
 }
 
 void LuaState::seal(bool sealed) { usage_->sealed = sealed; }

@@ -47,6 +47,8 @@ class LuaState {
   lua_State* get() { return state_; }
 
  private:
+  void call_as(const std::string& label, int arguments);
+
   struct Usage;
   std::unique_ptr<Usage> usage_;
   lua_State* state_ = nullptr;

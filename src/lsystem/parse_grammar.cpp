@@ -1,49 +1,24 @@
 // The statements of an L-system file, one function a keyword; see docs/lsystem.md for the notation.
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <cmath>
-#include <cstdlib>
 #include <map>
 #include <set>
 
 #include "core/files.h"
 #include "lsystem/grammar.h"
+#include "lsystem/lua_words.h"
+#include "lsystem/parse_appearance.h"
 #include "lsystem/parse_modules.h"
+#include "lsystem/parse_parameter.h"
 #include "lsystem/parse_production.h"
 #include "lsystem/parse_surroundings.h"
 #include "lsystem/settings.h"
 #include "lsystem/statements.h"
-#include "lsystem/surfaces.h"
 
 namespace espalier::lsystem {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::array kLuaWords{"and",      "break",  "do",   "else", "elseif", "end",  "false", "for",
-                               "function", "goto",   "if",   "in",   "local",  "nil",  "not",   "or",
-                               "repeat",   "return", "then", "true", "until",  "while"};
-
-/// Names that Lua code gives a value: words before a '=' or after "function". They are Lua's from then on.
-void collect_assigned(std::string_view code, std::set<std::string, std::less<>>& names) {
-  const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
-  std::string_view before;
-  for (std::size_t i = 0; i < code.size();) {
-    const std::size_t begin = i;
-    while (i < code.size() && is_word(code[i])) ++i;
-    if (i == begin) {
-      ++i;
-      continue;
-    }
-    const std::string_view word = code.substr(begin, i - begin);
-    const std::size_t next = std::min(code.find_first_not_of(" \t", i), code.size());
-    const bool assigned = code.substr(next).starts_with('=') && !code.substr(next).starts_with("==");
-    if (assigned || before == "function") names.emplace(word);
-    before = word;
-  }
-}
 
 class Parser {
  public:
@@ -60,6 +35,7 @@ class Parser {
   }
 
   void finish(const std::shared_ptr<const Source>& source) {
+    appearance_->file = source->label;
     if (appearance_->colors.empty()) appearance_->colors = default_colors();
     if (!taken_.contains("fraction") && !grammar_.names.from_lua.contains("fraction"))
       grammar_.names.globals.push_back("fraction");
@@ -94,6 +70,7 @@ class Parser {
         {"param ", &Parser::parse_parameter},
         {"let ", &Parser::parse_let},
         {"volume ", &Parser::parse_volume},
+        {"plant ", &Parser::parse_plant},
         {"field ", &Parser::parse_field},
         {"sun:", &Parser::parse_the_sun},
         {"shade:", &Parser::parse_the_shades},
@@ -103,7 +80,8 @@ class Parser {
         cursor.go_to(cursor.at() + keyword.size());
         return (this->*handler)(cursor);
       }
-    if (cursor.rest().starts_with("surface ")) return parse_surface(cursor, may_include);
+    if (cursor.rest().starts_with("surface "))
+      return parse_surface_declaration(cursor, may_include, *appearance_);
     if (cursor.rest().starts_with("include ")) return parse_include(cursor, may_include);
     if (!parse_setting(cursor)) read_production(cursor);
   }
@@ -165,8 +143,7 @@ class Parser {
     cursor.skip_space();
     const Position position = cursor.position();
     std::string name = cursor.expect_word("a name");
-    if (std::find(kLuaWords.begin(), kLuaWords.end(), name) != kLuaWords.end() || name == "step" ||
-        name == "unit")
+    if (is_lua_word(name) || name == "step" || name == "unit")
       throw_at(position, "got '{}', expected a name that is not taken by Lua, the step or the unit", name);
     if (!taken_.insert(name).second)
       throw_at(position, "got '{}' a second time, expected another name", name);
@@ -183,67 +160,12 @@ class Parser {
     if (!cursor.at_end()) cursor.fail("',' or the end of the line");
   }
 
-  double parse_number(Cursor& cursor, std::string_view what) {
-    cursor.skip_space();
-    const std::string text(cursor.rest().substr(0, 40));
-    char* stop = nullptr;
-    const double value = std::strtod(text.c_str(), &stop);
-    // "0..1": the range's dots are none of the number's.
-    std::size_t length = static_cast<std::size_t>(stop - text.c_str());
-    if (length > 0 && text[length - 1] == '.' && text[length] == '.') --length;
-    if (length == 0 || !std::isfinite(value)) cursor.fail(what);
-    cursor.go_to(cursor.at() + length);
-    return value;
-  }
-
-  /// param angle = 32 in 10 .. 60 deg "angle of the branch"
   void parse_parameter(Cursor& cursor) {
-    ParameterInfo row;
-    row.name = new_name(cursor);
-    cursor.expect("=");
-    const Position position = cursor.position();
-    row.default_value = parse_number(cursor, "a number");
-    cursor.expect("in");
-    row.lower = row.search_lower = parse_number(cursor, "the lower bound");
-    cursor.expect("..");
-    row.upper = row.search_upper = parse_number(cursor, "the upper bound");
-    parse_scale_and_unit(cursor, row);
-    parse_help(cursor, row);
-    row.free_by_default = true;
-    if (!(row.lower < row.upper))
-      throw_at(position, "got bounds {} .. {}, expected the lower one first", row.lower, row.upper);
-    check_value(row, row.default_value, describe(position));
-    grammar_.constants.push_back({row.name, {"", position}, grammar_.parameters.rows.size()});
-    grammar_.names.globals.push_back(row.name);
-    grammar_.parameters.rows.push_back(row);
-  }
-
-  static void parse_scale_and_unit(Cursor& cursor, ParameterInfo& row) {
-    row.unit = "1";
-    while (!cursor.at_end() && cursor.rest()[0] != '"') {
-      const Position position = cursor.position();
-      const std::string word = cursor.expect_word("integer, logarithmic, deg or \"help\"");
-      if (word == "integer")
-        row.scale = Scale::integer;
-      else if (word == "logarithmic")
-        row.scale = Scale::logarithmic;
-      else if (word == "deg")
-        row.unit = word;
-      else
-        throw_at(position, "got '{}', expected integer, logarithmic or deg", word);
-    }
-    if (row.scale == Scale::logarithmic && row.lower <= 0)
-      throw_at(cursor.position(), "got lower bound {}, expected one above 0 for a logarithmic parameter",
-               row.lower);
-  }
-
-  static void parse_help(Cursor& cursor, ParameterInfo& row) {
-    if (!cursor.take("\"")) return;
-    const std::size_t end = cursor.rest().find('"');
-    if (end == std::string_view::npos) cursor.fail("'\"' after the help");
-    row.help = std::string(cursor.rest().substr(0, end));
-    cursor.go_to(cursor.at() + end + 1);
-    if (!cursor.at_end()) cursor.fail("the end of the line");
+    const std::string name = new_name(cursor);
+    ParameterInfo row = parse_parameter_row(cursor, name);
+    grammar_.constants.push_back({name, {"", cursor.position()}, grammar_.parameters.rows.size()});
+    grammar_.names.globals.push_back(name);
+    grammar_.parameters.rows.push_back(std::move(row));
   }
 
   /// let prune(x, y) = x^2 + y^2 > L^2
@@ -277,52 +199,8 @@ class Parser {
     parse_sun(cursor, grammar_);
   }
 
-  /// colors: 8b5a2b 2e7d32 …
-  void parse_colors(Cursor& cursor) {
-    if (!appearance_->colors.empty())
-      throw_at(cursor.position(), "got a second table of colours, expected one");
-    while (!cursor.at_end()) {
-      cursor.take("#");
-      const Position position = cursor.position();
-      const std::string_view rest = cursor.rest();
-      const std::string word(rest.substr(0, std::min(rest.find_first_of(" \t\r\n#"), rest.size())));
-      if (word.size() != 6 || word.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
-        throw_at(position, "got '{}', expected a colour of six hexadecimal digits", word.substr(0, 40));
-      cursor.go_to(cursor.at() + word.size());
-      const auto value = static_cast<unsigned>(std::stoul(word, nullptr, 16));
-      const auto byte = [](unsigned bits) { return static_cast<std::uint8_t>(bits & 0xff); };
-      appearance_->colors.push_back({byte(value >> 16), byte(value >> 8), byte(value), true});
-    }
-    if (appearance_->colors.empty()) cursor.fail("colours of six hexadecimal digits");
-  }
-
-  /// "name" of a file.
-  static std::string parse_file_name(Cursor& cursor) {
-    cursor.expect("\"");
-    const std::size_t end = cursor.rest().find('"');
-    if (end == std::string_view::npos) cursor.fail("'\"' after the file's name");
-    std::string name(cursor.rest().substr(0, end));
-    cursor.go_to(cursor.at() + end + 1);
-    return name;
-  }
-
-  /// surface petal = "petal.patch"
-  void parse_surface(Cursor& cursor, bool may_read_files) {
-    cursor.take("surface");
-    cursor.skip_space();
-    const Position start = cursor.position();
-    NamedSurface surface{cursor.expect_word("the name of a surface"), {}};
-    for (const NamedSurface& other : appearance_->surfaces)
-      if (other.name == surface.name)
-        throw_at(start, "got surface '{}' a second time, expected another name", surface.name);
-    cursor.expect("=");
-    cursor.skip_space();
-    const Position position = cursor.position();
-    const std::string file = parse_file_name(cursor);
-    if (!cursor.at_end()) cursor.fail("the end of the line");
-    surface.triangles = read_surface(file, may_read_files, position);
-    appearance_->surfaces.push_back(std::move(surface));
-  }
+  void parse_colors(Cursor& cursor) { parse_color_table(cursor, *appearance_); }
+  void parse_plant(Cursor& cursor) { parse_plant_declaration(cursor, *appearance_); }
 
   void parse_include(Cursor& cursor, bool may_include) {
     cursor.take("include");
@@ -337,7 +215,9 @@ class Parser {
     const fs::path path = position.source->folder / name;
     if (!included_.insert(name).second)
       throw_at(position, "got include \"{}\" a second time, expected it once", name);
-    auto source = std::make_shared<Source>(Source{path.string(), position.source->folder, read_file(path)});
+    check_is_no_pipe(path);
+    auto source = std::make_shared<Source>(Source{path.string(), position.source->folder, read_file(path),
+                                                  true, position.source->may_have_plants});
     parse(std::move(source), true);
   }
 
@@ -383,9 +263,10 @@ Grammar parse_source(const std::shared_ptr<const Source>& source, const std::str
 
 }  // namespace
 
-Grammar read_grammar(const std::string& path) {
+Grammar read_grammar(const std::string& path, bool may_have_plants) {
   const fs::path file = path;
-  const auto source = std::make_shared<Source>(Source{path, file.parent_path(), read_file(file)});
+  const auto source =
+      std::make_shared<Source>(Source{path, file.parent_path(), read_file(file), true, may_have_plants});
   return parse_source(source, file.stem().string(), true);
 }
 

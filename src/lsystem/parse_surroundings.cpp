@@ -13,20 +13,21 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostObjects = 1000;
 
-fs::path file_beside(const std::string& name, const Source& source) {
-  if (!source.may_read_files)
-    throw_input_error("got file \"{}\", expected none in an L-system that is no file", name);
-  if (name.empty() || name.find_first_of("/\\") != std::string::npos || name.starts_with('.'))
-    throw_input_error("got file \"{}\", expected the name of a file in the folder of the L-system", name);
-  return source.folder / name;
-}
-
 void check_count(std::size_t count, const Cursor& cursor, const char* what) {
   if (count >= kMostObjects)
     throw_at(cursor.position(), "got more than {} {}, expected fewer", kMostObjects, what);
 }
 
 }  // namespace
+
+fs::path file_beside(const std::string& name, const Source& source) {
+  if (!source.may_read_files)
+    throw_input_error("got file \"{}\", expected none in an L-system that is no file", name);
+  if (name.empty() || name.find_first_of("/\\") != std::string::npos || name.starts_with('.'))
+    throw_input_error("got file \"{}\", expected the name of a file in the folder of the L-system", name);
+  check_is_no_pipe(source.folder / name);
+  return source.folder / name;
+}
 
 void parse_volume_declaration(Cursor& cursor, const std::string& name, Grammar& grammar) {
   check_count(grammar.volumes.size(), cursor, "volumes");

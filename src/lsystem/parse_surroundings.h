@@ -8,6 +8,9 @@
 
 namespace espalier::lsystem {
 
+/// Throws InputError where the text may read no files, or the name has a path.
+std::filesystem::path file_beside(const std::string& name, const Source& source);
+
 /// After "volume NAME": = box(0,0,6, 12,12,12)
 void parse_volume_declaration(Cursor& cursor, const std::string& name, Grammar& grammar);
 

@@ -5,12 +5,14 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "lsystem/copy_plant.h"
 #include "lsystem/frames.h"
 #include "lsystem/limits.h"
 #include "lsystem/stem_splines.h"
 #include "lsystem/surfaces.h"
 #include "lsystem/triangle_leaves.h"
 #include "lsystem/turtle_walk.h"
+#include "plant/leaf_outlines.h"
 
 namespace espalier::lsystem {
 
@@ -18,6 +20,23 @@ namespace {
 
 constexpr std::size_t kMostVertices = 2000;     // of a polygon: cutting it takes the square of it
 constexpr std::size_t kMostLeaves = 5'000'000;  // and triangles of a plant
+constexpr int kMostLeavesOfSegment = 10'000;
+constexpr std::size_t kMostCopiedKnots = 10'000'000;
+
+/// 0 · x is 0 only where x is finite: one test for all of them.
+float zero_unless_infinite(const std::vector<Vec3>& points) {
+  float sum = 0;
+  for (const Vec3& p : points) sum += 0 * (p.x + p.y + p.z);
+  return sum;
+}
+
+void check_places(const Plant& plant) {
+  float sum = zero_unless_infinite(plant.knots.handle_in_m) + zero_unless_infinite(plant.knots.handle_out_m) +
+              zero_unless_infinite(plant.leaves.position_m);
+  for (const float radius_m : plant.knots.radius_m) sum += 0 * radius_m;
+  if (sum != 0)
+    throw_input_error("the string draws what is too large or too far away, expected less than 1e30 m");
+}
 
 /// Collects what the turtle draws.
 class Builder : public SilentVisitor {
@@ -89,6 +108,7 @@ class Builder : public SilentVisitor {
     plant_.leaf_shape = settings_.leaf_shape;
     plant_.blossom_shape = settings_.blossom_shape;
     if (!triangles_.empty()) draw_as_triangles(triangles_, plant_);
+    check_places(plant_);
     const Bounds box = bounds(plant_);
     plant_.tree_scale_m = std::max(box.upper.z - box.lower.z, 0.0f);
   }
@@ -136,14 +156,19 @@ class Builder : public SilentVisitor {
     if (surface == kLeafSurface) return add_leaf(turtle, length, across, LeafKind::leaf);
     if (surface == kBlossomSurface) return add_leaf(turtle, length, across, LeafKind::blossom);
     if (surface < kFirstOwnSurface) return add_triangles(turtle, outline_triangles(surface), length, across);
-    const auto own = static_cast<std::size_t>(surface - kFirstOwnSurface);
-    add_triangles(turtle, settings_.appearance->surfaces[own].triangles, scale, width);
+    const NamedSurface& own =
+        settings_.appearance->surfaces[static_cast<std::size_t>(surface - kFirstOwnSurface)];
+    if (own.plant) return add_copy(turtle, *own.plant, scale, width);
+    add_triangles(turtle, own.triangles, scale, width);
   }
 
   /// F(length, width, leaves, down angle, roll angle): leaves spread evenly along the segment, each turned
   /// about it from the one before [CH §3.1.2].
   void add_leaves(const Turtle& turtle, const Step& step) {
-    const int count = static_cast<int>(std::clamp(step.values[2], 0.0, 1e5));
+    if (step.values[2] > kMostLeavesOfSegment)
+      throw_input_error("module {} of the string: got {} leaves on a segment, expected at most {}",
+                        step.module, step.values[2], kMostLeavesOfSegment);
+    const int count = static_cast<int>(std::max(step.values[2], 0.0));
     Rotation down, roll;
     down.set(-step.value_or(3, 45));
     roll.set(step.value_or(4, 140));
@@ -213,10 +238,30 @@ class Builder : public SilentVisitor {
     check_count();
     triangles_.push_back({triangle, color});
   }
-  void check_count() const {
-    if (triangles_.size() + plant_.leaves.size() >= kMostLeaves)
+  void check_count(std::size_t more_leaves = 1, std::size_t more_copied_knots = 0) const {
+    if (triangles_.size() + plant_.leaves.size() + more_leaves > kMostLeaves)
       throw TooManyModules(
           fmt::format("got more than {} leaves and triangles of surfaces, expected fewer", kMostLeaves));
+    if (copied_knots_ + more_copied_knots > kMostCopiedKnots)
+      throw TooManyModules(
+          fmt::format("got copies of plants with more than {} knots, expected fewer", kMostCopiedKnots));
+  }
+
+  /// A copy of a plant, as if its turtle started with the position and the directions of this one.
+  void add_copy(const Turtle& turtle, const Plant& plant, double scale, double width) {
+    const bool as_leaves = plant.leaf_shape == settings_.leaf_shape;
+    const std::size_t pieces = as_leaves ? 1 : leaf_outline(plant.leaf_shape).triangles.size();
+    check_count(pieces * plant.leaves.size(), plant.knots.size());
+    copied_knots_ += plant.knots.size();
+    const auto metres = [&](const Vector& v, double factor) {
+      return Vec3{static_cast<float>(v.x * factor), static_cast<float>(v.y * factor),
+                  static_cast<float>(v.z * factor)} *
+             unit_;
+    };
+    const CopyFrame frame{point(turtle.position), metres(turtle.left, -width), metres(turtle.up, -width),
+                          metres(turtle.heading, scale)};
+    copy_stems(plant, frame, axis_.stem >= 0 ? axis_.stem : axis_.parent, stems_);
+    copy_leaves(plant, frame, settings_.leaf_shape, plant_.leaves, triangles_);
   }
 
   /// A surface of triangles, in the frame of a leaf.
@@ -241,6 +286,7 @@ class Builder : public SilentVisitor {
   std::vector<Axis> stack_;
   std::vector<std::vector<Vec3>> polygons_;  ///< those that are open
   std::vector<ColoredTriangle> triangles_;
+  std::size_t copied_knots_ = 0;
   Frames frames_;
   const bool has_frames_;
 };
@@ -256,9 +302,16 @@ bool has_frames(const SymbolTable& alphabet) {
 void build_plant(const ModuleString& string, const SymbolTable& alphabet, const Settings& settings,
                  Plant& plant) {
   plant.clear();
-  Builder builder(settings, has_frames(alphabet), plant);
-  TurtleWalk(settings, builder).run(string, alphabet);
-  builder.finish();
+  try {
+    Builder builder(settings, has_frames(alphabet), plant);
+    TurtleWalk(settings, builder).run(string, alphabet);
+    builder.finish();
+  } catch (const TooManyModules&) {
+    throw;
+  } catch (const InputError& error) {
+    if (!settings.appearance) throw;
+    throw_input_error("{}: {}", settings.appearance->file, error.what());
+  }
 }
 
 }  // namespace espalier::lsystem

@@ -16,8 +16,17 @@ std::string describe(const Position& position) {
 }
 
 std::string one_line(std::string text) {
+  constexpr std::size_t kLongest = 600;
+  if (text.size() > kLongest)
+    text = fmt::format("{} … {}", text.substr(0, kLongest / 2), text.substr(text.size() - kLongest / 2));
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
+}
+
+void check_is_no_pipe(const std::filesystem::path& path) {
+  std::error_code none;
+  if (std::filesystem::is_other(path, none))
+    throw_input_error("{}: is no regular file, expected one", path.string());
 }
 
 std::string found_at(std::string_view text, std::size_t offset) {

@@ -7,6 +7,7 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 
+#include "environment/ply_counts.h"
 #include "lsystem/source.h"
 
 namespace espalier::lsystem {
@@ -46,6 +47,11 @@ void append_faces(const aiMesh& mesh, const std::string& label, std::vector<Tria
 
 std::vector<Triangle> read_surface_mesh(const std::string& bytes, const std::string& format,
                                         const std::string& label) {
+  try {
+    check_ply_counts(bytes, bytes.size());
+  } catch (const InputError& error) {
+    throw_input_error("surface \"{}\": {}", label, error.what());
+  }
   Assimp::Importer importer;
   importer.SetIOHandler(new NoFiles);  // which the importer then owns
   const aiScene* scene = importer.ReadFileFromMemory(

@@ -90,9 +90,14 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"axiom: A(1)\nproductions:\n p1: A(x) --> A(sqrt())\n", "bad.lsys:3:"},
         Fault{"axiom: A(1)\nproductions:\n p1: A(x) --> +(sqrt(0-x))\n",
               "bad.lsys:3:2: p1, module A(1): argument 'sqrt(0-x)' is"},
+        Fault{"let f(a) = a\naxiom: A(f(1,2))\n", "bad.lsys:2:10: 'f(1,2)': f: got 2 arguments, expected 1"},
+        Fault{"axiom: A(sqrt(1,2))\n", "bad.lsys:1:10: 'sqrt(1,2)': sqrt: got 2 arguments, expected 1"},
+        Fault{"axiom: A(max())\n", "max: got no arguments"}, Fault{"axiom: f(1e300)F\n", "too far away"},
+        Fault{"axiom: F(1,1e300)\n", "too large"}, Fault{"axiom: f(1e300)~('leaf')\n", "too far away"},
+        Fault{"axiom: F(1,1,1e9)\n", "got 1000000000 leaves on a segment, expected at most 10000"},
         Fault{"axiom: A\nproductions:\n p1: A : nothing(1) --> B\n",
               "bad.lsys:3:10: 'nothing(1)': got the unknown name"},
-        Fault{"axiom: A}\n", "got '}', expected a '{' before it"},
+        Fault{"axiom: A}\n", "bad.lsys: module 1 of the string: got '}', expected a '{' before it"},
         Fault{"axiom: {F\n", "got '{' without '}'"}));
 
 INSTANTIATE_TEST_SUITE_P(
@@ -127,6 +132,28 @@ TEST(Sandbox, LoopsEnd) {
     const std::string message = message_of(std::string("axiom: A\n") + code, limits);
     EXPECT_NE(message.find("more than 1000000 instructions"), std::string::npos) << code << ": " << message;
   }
+}
+
+TEST(Sandbox, LimitsNameTheirPlace) {
+  Limits limits;
+  limits.lua_instructions = 1e6;
+  limits.lua_memory_bytes = 4 << 20;
+  EXPECT_EQ(message_of("axiom: A\nlua:\n  while true do end\n", limits).find("bad.lsys:3: Lua ran"), 0u);
+  EXPECT_EQ(
+      message_of("axiom: A\nlua:\n  function on_end() while true do end end\n", limits).find("bad.lsys:3: "),
+      0u);
+  EXPECT_EQ(
+      message_of("axiom: A\nlua:\n  x = 'x' while true do x = x .. x end\n", limits).find("bad.lsys: not en"),
+      0u);
+  EXPECT_EQ(
+      message_of("axiom: A\nlua:\n  function on_start() local x = 'x' while true do x = x .. x end end\n",
+                 limits),
+      "on_start: not enough memory");
+}
+
+TEST(BadFilesOfSize, AreQuotedInPart) {
+  const std::string deep = std::string(50000, '(') + "1" + std::string(50000, ')');
+  EXPECT_LT(message_of("axiom: F(" + deep + ")\n").size(), 700u);
 }
 
 TEST(Sandbox, MemoryEnds) {

@@ -135,6 +135,8 @@ TEST_F(SurfaceFiles, BadFilesAreOneLine) {
   EXPECT_THAT(message("own.obj"), HasSubstr("surface \"own.obj\""));
   EXPECT_THAT(message("nan.obj"), HasSubstr("surface \"nan.obj\""));
   EXPECT_THAT(message("nowhere.patch"), HasSubstr("nowhere.patch"));
+  write("many.ply", "ply\nformat ascii 1.0\nelement vertex 99999999\nproperty float x\nend_header\n0\n");
+  EXPECT_THAT(message("many.ply"), HasSubstr("got 'element vertex 99999999' in a file of"));
   for (const char* file : {"../own.patch", "/etc/passwd", "own.txt", "..\\\\own.patch", ""})
     EXPECT_THAT(message(file), HasSubstr("test.lsys:2:15: got surface")) << file;
 }

@@ -1,5 +1,6 @@
 // What L-systems sense of their surroundings: volumes, fields, light.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <filesystem>
@@ -20,8 +21,9 @@ std::string after_one_step(const std::string& declarations, const std::string& p
 }
 
 TEST(Surroundings, ExpressionsSeeVolumes) {
-  const std::string clip = "param r = 2 in 1 .. 3\nvolume core = ball(0,0,0, r)\n"
-                           "volume clip = difference(box(0,0,0, 8,8,8), core)";
+  const std::string clip =
+      "param r = 2 in 1 .. 3\nvolume core = ball(0,0,0, r)\n"
+      "volume clip = difference(box(0,0,0, 8,8,8), core)";
   EXPECT_EQ(after_one_step(clip, "A --> B(distance(core, 5, 0, 0))"), "B(3)");
   EXPECT_EQ(after_one_step(clip, "A --> B(distance(clip, 3, 0, 0))"), "B(-1)");
   EXPECT_EQ(after_one_step(clip, "A : inside(clip, 3, 0, 0) --> B"), "B");
@@ -30,10 +32,12 @@ TEST(Surroundings, ExpressionsSeeVolumes) {
 }
 
 TEST(Surroundings, LuaSeesTheSame) {
-  const std::string clip = "volume clip = ball(0,0,0, 2)\nlua:\n  function at(x) return distance(clip, x, 0, 0) end";
+  const std::string clip =
+      "volume clip = ball(0,0,0, 2)\nlua:\n  function at(x) return distance(clip, x, 0, 0) end";
   EXPECT_EQ(after_one_step(clip, "A --> B(at(5))"), "B(3)");
-  EXPECT_EQ(after_one_step(clip, "A --> lua\n   if inside(clip, 1, 0, 0) then produce(\"C\", light(0, 0, 0)) end"),
-            "C(1)");
+  EXPECT_EQ(
+      after_one_step(clip, "A --> lua\n   if inside(clip, 1, 0, 0) then produce(\"C\", light(0, 0, 0)) end"),
+      "C(1)");
 }
 
 TEST(Surroundings, ALetFunctionOfTheFileComesFirst) {
@@ -59,8 +63,8 @@ TEST(Surroundings, VolumesFollowTheParametersOfEachDerivation) {
 
 /// How much sun and sky reaches (0,0,1), beside what `drawn` draws.
 std::pair<double, double> light_at(const std::string& settings, const std::string& drawn) {
-  const std::string text = settings + "\naxiom: " + drawn +
-                           "A\nproductions:\n A --> B(light(0,0,1), skylight(0,0,1))\n";
+  const std::string text =
+      settings + "\naxiom: " + drawn + "A\nproductions:\n A --> B(light(0,0,1), skylight(0,0,1))\n";
   const std::string string = strings_of(text, 1).back();
   double sun = -1, sky = -1;
   std::sscanf(string.c_str() + string.find("B("), "B(%lf,%lf)", &sun, &sky);
@@ -113,8 +117,10 @@ TEST(Surroundings, FaultsAreOneLineWithTheirPlace) {
       {"volume clip = mesh(\"a.obj\")" + end, "test.lsys:1:21: got file \"a.obj\", expected none"},
       {"volume c = ball(0,0,0,1)\nvolume c = ball(0,0,0,1)" + end, "test.lsys:2:8: got 'c' a second time"},
       {"field soil = picture(\"a.png\", 0, 0, 1)" + end, "test.lsys:1:23: got file \"a.png\", expected none"},
-      {"const a = inside(c, 0,0,0) and 1 or 0\nvolume c = ball(0,0,0,1)" + end, "got a volume before its declaration"},
-      {"axiom: B(inside(clop, 0,0,0) and 1 or 0)\n", "test.lsys:1:10: 'inside(clop, 0,0,0) and 1 or 0': got the unknown name 'clop'"},
+      {"const a = inside(c, 0,0,0) and 1 or 0\nvolume c = ball(0,0,0,1)" + end,
+       "got a volume before its declaration"},
+      {"axiom: B(inside(clop, 0,0,0) and 1 or 0)\n",
+       "test.lsys:1:10: 'inside(clop, 0,0,0) and 1 or 0': got the unknown name 'clop'"},
       {"volume c = ball(0,0,0,1)\naxiom: B(distance(c, 0, 0))\n", "expected"},
       {"volume c = ball(0,0,0,1)\naxiom: B(distance(3, 0, 0, 0))\n", "expected the name of a volume"},
       {"volume c = ball(0,0,0,1)\naxiom: B(c + 1)\n", "test.lsys:2:"},
@@ -127,6 +133,7 @@ TEST(Surroundings, FaultsAreOneLineWithTheirPlace) {
 
 TEST(Surroundings, FilesAreReadFromTheFolderOnly) {
   const fs::path folder = fs::temp_directory_path() / "espalier_surroundings";
+  fs::remove_all(folder);
   fs::create_directories(folder / "deeper");
   std::ofstream(folder / "open.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   std::ofstream(folder / "text.png") << "no picture";
@@ -140,11 +147,17 @@ TEST(Surroundings, FilesAreReadFromTheFolderOnly) {
     }
   };
   for (const char* name : {"/etc/passwd", "../a.obj", "deeper/a.obj", "", ".hidden.obj"})
-    EXPECT_NE(message(fmt::format("volume v = mesh(\"{}\")", name)).find("a.lsys:1:18: got file"), std::string::npos)
+    EXPECT_NE(message(fmt::format("volume v = mesh(\"{}\")", name)).find("a.lsys:1:18: got file"),
+              std::string::npos)
         << message(fmt::format("volume v = mesh(\"{}\")", name));
   EXPECT_NE(message("volume v = mesh(\"no.obj\")").find("a.lsys:1:18: mesh"), std::string::npos);
   EXPECT_NE(message("volume v = mesh(\"open.obj\")").find("edges are open"), std::string::npos);
   EXPECT_NE(message("volume v = picture(\"text.png\", 3)").find("a.lsys:1:21: "), std::string::npos);
+  for (const char* pipe : {"pipe.png", "pipe.lsys", "pipe.patch"})
+    ASSERT_EQ(::mkfifo((folder / pipe).c_str(), 0600), 0);
+  EXPECT_NE(message("field f = picture(\"pipe.png\", 0,0,1)").find("is no regular file"), std::string::npos);
+  for (const char* line : {"include \"pipe.lsys\"", "plant p = \"pipe.lsys\"", "surface s = \"pipe.patch\""})
+    EXPECT_NE(message(line).find("is no regular file"), std::string::npos) << line;
   EXPECT_NE(message("field f = picture(\"no.png\", 0,0,1)").find("a.lsys:1:20: "), std::string::npos);
   fs::remove_all(folder);
 }
@@ -193,14 +206,16 @@ TEST(Surroundings, BranchesStayAwayFromTheMesh) {
 // [Blender thesis, Fig. 5.11]: the tree on richer soil is denser.
 TEST(Surroundings, RichSoilGrowsMore) {
   const Grammar grammar = load_grammar("nutrients");
-  const Plant rich = plant_of(grammar, std::vector{6.0, 1.0}, 12, 2), poor = plant_of(grammar, std::vector{-8.0, -5.0}, 12, 2);
+  const Plant rich = plant_of(grammar, std::vector{6.0, 1.0}, 12, 2),
+              poor = plant_of(grammar, std::vector{-8.0, -5.0}, 12, 2);
   EXPECT_GT(rich.leaves.size(), 2 * poor.leaves.size());
   EXPECT_GT(rich.stems.size(), 2 * poor.stems.size());
 }
 
 TEST(Surroundings, ATreeBehindAWallIsSmallerThanOneInTheSun) {
   const Grammar grammar = load_grammar("phototropism_shade");
-  const Plant open = plant_of(grammar, std::vector{-12.0, 0.5}, 10, 1), shaded = plant_of(grammar, std::vector{-2.0, 0.5}, 10, 1);
+  const Plant open = plant_of(grammar, std::vector{-12.0, 0.5}, 10, 1),
+              shaded = plant_of(grammar, std::vector{-2.0, 0.5}, 10, 1);
   EXPECT_GT(open.stems.size(), shaded.stems.size());
 }
 
@@ -216,7 +231,8 @@ TEST(Surroundings, PruneToReplacesTheVolumeCalledClip) {
   // The next one is not pruned to it.
   model->generate(values, 1, {}, whole);
   EXPECT_GT(whole.stems.size(), pruned.stems.size());
-  EXPECT_THROW(make_model("fern")->generate(make_model("fern")->table().defaults(), 1, settings, pruned), InputError);
+  EXPECT_THROW(make_model("fern")->generate(make_model("fern")->table().defaults(), 1, settings, pruned),
+               InputError);
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+#include "environment/ply_counts.h"
+
+#include <charconv>
+
+#include "core/error.h"
+
+namespace espalier {
+
+namespace {
+
+/// The count of a line "element vertex 8", or 0.
+std::uintmax_t count_of(std::string_view line) {
+  if (!line.starts_with("element ")) return 0;
+  const std::size_t digits = line.find_last_of(' ') + 1;
+  std::uintmax_t count = 0;
+  const auto [end, error] = std::from_chars(line.data() + digits, line.data() + line.size(), count);
+  return error == std::errc::result_out_of_range ? UINTMAX_MAX : count;
+}
+
+}  // namespace
+
+void check_ply_counts(std::string_view begin, std::uintmax_t file_bytes) {
+  if (!begin.starts_with("ply")) return;
+  while (!begin.empty() && !begin.starts_with("end_header")) {
+    const std::size_t end = begin.find_first_of("\r\n");
+    std::string_view line = begin.substr(0, end);
+    while (line.ends_with(' ')) line.remove_suffix(1);
+    if (count_of(line) > file_bytes)
+      throw_input_error("got '{}' in a file of {} bytes, expected as many as it holds", line.substr(0, 60),
+                        file_bytes);
+    begin.remove_prefix(end == begin.npos ? begin.size() : end + 1);
+  }
+}
+
+}  // namespace espalier

@@ -1,0 +1,26 @@
+// A plant of another L-system, grown once and copied wherever a string names it: hedges of a knot garden
+// [Topiary §6, Fig. 12].
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lsystem/source.h"
+#include "plant/plant.h"
+
+namespace espalier::lsystem {
+
+struct NamedNumber {
+  std::string name;
+  double value = 0;
+  Position position;
+};
+
+/// The plant of `file`, which lies in the folder of the text that names it, after all its steps, with these
+/// parameters and the default ones, and the seed among them (1 where there is none). One unit is one metre.
+/// Throws InputError at `position` where the file cannot be read or grown, at a number's where there is no
+/// such parameter or its value is out of bounds.
+std::shared_ptr<const Plant> grow_copied(const std::string& file, const std::vector<NamedNumber>& numbers,
+                                         const Position& position);
+
+}  // namespace espalier::lsystem
