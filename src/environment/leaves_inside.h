@@ -5,8 +5,8 @@
 
 namespace espalier {
 
-/// Makes leaves that reach out of the volume smaller, by no more than half; those that still do are taken
-/// away. The order of those that stay is kept.
+/// Makes leaves of which less than three quarters are inside of the volume smaller, by no more than half;
+/// those that still reach out are taken away. The order of those that stay is kept.
 void keep_leaves_inside(const Volume& volume, Leaves& leaves);
 
 }  // namespace espalier
