@@ -10,7 +10,7 @@ if(ESPALIER_WERROR)
 endif()
 if(ESPALIER_FUZZ AND CMAKE_CXX_COMPILER_ID MATCHES Clang)
   target_compile_options(espalier_options INTERFACE -fsanitize=fuzzer-no-link)
-  # No more than one instruction set of what is drawn and not fuzzed: a quarter of the time to build.
+  # One instruction set of the code that has several: it is built, but not what is fuzzed.
   target_compile_definitions(espalier_options INTERFACE HWY_COMPILE_ONLY_STATIC)
 endif()
 if(ESPALIER_SANITIZE)

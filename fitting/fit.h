@@ -41,7 +41,7 @@ struct FitResult {
   std::string best_start;
   std::size_t dimension = 0;
   CandidateFailures failures = {};  ///< since the run began or was resumed
-  std::string certainty;  ///< in words; empty where it was not measured
+  std::string certainty;            ///< in words; empty where it was not measured
 };
 
 /// Runs the fit. All input is checked before `directory` is made. Throws InputError, for the record, its

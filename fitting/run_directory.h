@@ -37,7 +37,7 @@ struct RunState {
   double seconds = 0;
   std::optional<std::string> stopped_by = {};  ///< none while it runs
   std::size_t embree_disagreement_px = 0;
-  CandidateFailures failures = {};  ///< since the run began or was resumed
+  CandidateFailures failures = {};              ///< since the run began or was resumed
   std::optional<SolutionArchive> archive = {};  ///< of the search of the parameters, once it begins
   CertaintyReport certainty = {};               ///< after it
 };

@@ -13,6 +13,7 @@
 #include "app/version.h"
 #include "core/error.h"
 #include "fitting/fit.h"
+#include "models/models.h"
 
 namespace espalier {
 
@@ -103,6 +104,17 @@ void set_branch_rounds(const CLI::App& command, FitRecord& record) {
         record.fit_seeds);
 }
 
+/// Plants of other models cannot be thinned: a budget that their default plant keeps with room to spare.
+GrowthBudget roomy_budget(const std::string& model_name, Seed seed, GrowthBudget budget) {
+  constexpr double kRoom = 3;
+  const Model& model = model_by_name(model_name);
+  Plant plant;
+  if (!model.generate(model.table().defaults(), seed, {}, plant).grown) return budget;
+  budget.max_stems = std::max(budget.max_stems, kRoom * static_cast<double>(plant.stems.size()));
+  budget.max_leaves = std::max(budget.max_leaves, kRoom * static_cast<double>(plant.leaves.size()));
+  return budget;
+}
+
 FitRecord new_record(const CLI::App& command, const FitArguments& arguments) {
   FitRecord record = arguments.record;
   record.views = views_of(arguments);
@@ -116,7 +128,11 @@ FitRecord new_record(const CLI::App& command, const FitArguments& arguments) {
   if (command.count("--height") > 0) record.height_m = arguments.height_m;
   set_budget(command, record.budget);
   // The bundled presets are starts for the parametric model alone.
-  if (record.model != FitRecord{}.model && command.count("--start") == 0) record.start = "defaults";
+  if (record.model != FitRecord{}.model) {
+    if (command.count("--start") == 0) record.start = "defaults";
+    if (command.count("--max-stems") + command.count("--max-leaves") == 0)
+      record.growth = roomy_budget(record.model, record.seed, record.growth);
+  }
   set_branch_rounds(command, record);
   return record;
 }
@@ -237,9 +253,13 @@ void add_search_options(CLI::App& command, FitArguments& arguments) {
       ->capture_default_str();
   command.add_option("--free", arguments.free, "parameters to search: a,b[1],curve*,default")->delimiter(',');
   command.add_option("--fix", arguments.fixed, "hold a parameter: name=value");
-  command.add_option("--max-stems", record.growth.max_stems, "stems a candidate may have")
+  command
+      .add_option("--max-stems", record.growth.max_stems,
+                  "stems a candidate may have; for an L-system at least 3 times those of its default plant")
       ->capture_default_str();
-  command.add_option("--max-leaves", record.growth.max_leaves, "leaves a candidate may have")
+  command
+      .add_option("--max-leaves", record.growth.max_leaves,
+                  "leaves a candidate may have; for an L-system likewise")
       ->capture_default_str();
   record.kind = "auto";
   command

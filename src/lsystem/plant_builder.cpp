@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kMostVertices = 2000;     // of a polygon: cutting it takes the square of it
 constexpr std::size_t kMostLeaves = 5'000'000;  // and triangles of a plant
-constexpr int kMostLeavesOfSegment = 10'000;
+constexpr int kMostLeavesOfSegment = 1000;
 constexpr std::size_t kMostCopiedKnots = 10'000'000;
 
 /// 0 · x is 0 only where x is finite: one test for all of them.

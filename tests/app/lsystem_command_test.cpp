@@ -98,6 +98,8 @@ TEST(LsystemCommand, LsystemsAreModels) {
       "fit '" + mask + "' --model monopodial.lsys --free branch_angle,trunk_ratio --evaluations 30 --out '" +
       run + "'");
   EXPECT_EQ(fit.exit_code, 0) << fit.err;
+  // Its plants are within the budget: they were drawn and compared.
+  EXPECT_EQ(fit.out.find("IoU 0.0000"), std::string::npos) << fit.out;
   EXPECT_EQ(run_espalier("mask '" + run + "/best.toml' -o '" + mask + "'").exit_code, 0);
 }
 

@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"axiom: A(sqrt(1,2))\n", "bad.lsys:1:10: 'sqrt(1,2)': sqrt: got 2 arguments, expected 1"},
         Fault{"axiom: A(max())\n", "max: got no arguments"}, Fault{"axiom: f(1e300)F\n", "too far away"},
         Fault{"axiom: F(1,1e300)\n", "too large"}, Fault{"axiom: f(1e300)~('leaf')\n", "too far away"},
-        Fault{"axiom: F(1,1,1e9)\n", "got 1000000000 leaves on a segment, expected at most 10000"},
+        Fault{"axiom: F(1,1,1e9)\n", "got 1000000000 leaves on a segment, expected at most 1000"},
         Fault{"axiom: A\nproductions:\n p1: A : nothing(1) --> B\n",
               "bad.lsys:3:10: 'nothing(1)': got the unknown name"},
         Fault{"axiom: A}\n", "bad.lsys: module 1 of the string: got '}', expected a '{' before it"},
