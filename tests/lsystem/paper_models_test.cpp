@@ -33,14 +33,16 @@ Strings branches(const std::string& string, const std::string& opening) {
   return found;
 }
 
-// [Topiary, §3], the text on L-system 4: "In derivation step 6 the apex of the main axis grows out of the clipping
-// box. In step 7 this apex and the last internode are removed from the structure, and the bud-activating signal S
-// is generated. […] a lateral branch is created in step 8. As it also extends beyond the bounding box, it is
-// removed in step 9 […]. Signal S is generated again, and in step 10 it reaches a dormant bud."
+// [Topiary, §3], the text on L-system 4: "In derivation step 6 the apex of the main axis grows out of the
+// clipping box. In step 7 this apex and the last internode are removed from the structure, and the
+// bud-activating signal S is generated. […] a lateral branch is created in step 8. As it also extends beyond
+// the bounding box, it is removed in step 9 […]. Signal S is generated again, and in step 10 it reaches a
+// dormant bud."
 TEST(PaperModels, PruningSignalsWakeTheBudBelow) {
   const Strings strings = strings_of(load_grammar("topiary_4"), 12);
   const auto segments = [&](std::size_t step) { return count(strings[step], "F"); };
-  for (std::size_t step = 0; step < 6; ++step) EXPECT_EQ(count(strings[step], fmt::format("?P(0,{})", step + 1)), 1u);
+  for (std::size_t step = 0; step < 6; ++step)
+    EXPECT_EQ(count(strings[step], fmt::format("?P(0,{})", step + 1)), 1u);
   EXPECT_EQ(count(strings[6], "A?P(0,7)"), 1u);  // the box ends at 6
   EXPECT_EQ(count(strings[7], "A"), 0u);
   EXPECT_EQ(segments(7), segments(6) - 1);
@@ -58,10 +60,13 @@ TEST(PaperModels, PruningSignalsWakeTheBudBelow) {
 TEST(PaperModels, ThePrintedListingIsLateByAStepAtEachCut) {
   for (int box = 3; box < 9; ++box) {
     const Strings strings = strings_of(
-        fmt::format("angle: 60\nlet prune(x, y) = x < -{0}/2 or x > {0}/2 or y < 0 or y > {0}\nignore: + - /\n"
-                    "branches: follow\naxiom: FA?P(x,y)\nproductions:\n"
-                    "  A > ?P(x,y) : not prune(x, y) --> @oF/(180)A\n  A > ?P(x,y) : prune(x, y) --> T%\n"
-                    "  F > T --> S\n  F > S --> SF\n  S --> *\n  @o > S --> [+FA?P(x,y)]\n  T --> *\n", box), 14);
+        fmt::format(
+            "angle: 60\nlet prune(x, y) = x < -{0}/2 or x > {0}/2 or y < 0 or y > {0}\nignore: + - /\n"
+            "branches: follow\naxiom: FA?P(x,y)\nproductions:\n"
+            "  A > ?P(x,y) : not prune(x, y) --> @oF/(180)A\n  A > ?P(x,y) : prune(x, y) --> T%\n"
+            "  F > T --> S\n  F > S --> SF\n  S --> *\n  @o > S --> [+FA?P(x,y)]\n  T --> *\n",
+            box),
+        14);
     const auto first = [&](const std::string& part) {
       std::size_t step = 0;
       while (count(strings[step], part) == 0) ++step;
