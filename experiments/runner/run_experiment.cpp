@@ -91,7 +91,8 @@ class Runner {
     const double worked = std::accumulate(done_share_.begin(), done_share_.end(), 0.0);
     const double left = static_cast<double>(outcome_.rows.size() - done_before_) - worked;
     const double seconds = std::chrono::duration<double>(Clock::now() - began_).count();
-    if (worked > 0) progress.seconds_left = left * seconds / worked;
+    constexpr double kEnough = 0.5;  // of a run: less says nothing of the others
+    if (worked > kEnough) progress.seconds_left = left * seconds / worked;
     options_.on_progress(progress);
   }
 

@@ -40,6 +40,9 @@ struct Offspring {
   ChildBatch* batch = nullptr;
 };
 
+/// Leaves are cut by the volume once all have grown.
+bool cuts_leaves(const GrowthSettings& settings) { return settings.train && settings.prune_to; }
+
 class Growth {
  public:
   Growth(const WeberPennParameters& p, const GrowthSettings& settings, Lanes lanes, GrowthMemory& memory,
@@ -49,7 +52,7 @@ class Growth {
         uses_vectors_(lanes == Lanes::many),
         plant_(plant),
         stem_batch_(memory.stem_batch),
-        leaf_batch_(p, memory.leaves, plant.leaves, settings.leaf_sink),
+        leaf_batch_(p, memory.leaves, plant.leaves, cuts_leaves(settings) ? nullptr : settings.leaf_sink),
         twig_batch_(p, settings, memory.twigs, memory.next_level),
         level_(memory.level),
         next_level_(memory.next_level) {
@@ -353,7 +356,7 @@ GrowthResult grow_tree(const WeberPennParameters& parameters, Seed seed, const G
   plant.stems.first_knot.push_back(0);
   static thread_local GrowthMemory memory;
   const GrowthResult result = Growth(parameters, settings, lanes, memory, plant).run(seed);
-  if (settings.train && settings.prune_to) keep_leaves_inside(*settings.prune_to, plant.leaves);
+  if (cuts_leaves(settings)) keep_leaves_inside(*settings.prune_to, plant.leaves);
   return result;
 }
 

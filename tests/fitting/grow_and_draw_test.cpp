@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "environment/volume.h"
 #include "models/models.h"
 #include "models/preset.h"
 
@@ -78,6 +79,23 @@ TEST(GrowAndDraw, RefusesTheLeavesThatGrowingAloneRefuses) {
     EXPECT_EQ(drawn.over_budget_factor, grown.over_budget_factor) << share;
     EXPECT_EQ(drawn.grown, share > 1) << share;
   }
+}
+
+TEST(GrowAndDraw, DrawsTrainedTreesWithTheLeavesThatStay) {
+  const Subject subject("quaking_aspen");
+  const auto ball = make_ball({0, 0, 7}, 4);
+  GrowthSettings settings;
+  settings.prune_to = ball.get();
+  settings.train = true;
+  const Camera camera = subject.camera({}, 128);
+  Mask mask, expected;
+  Plant plant;
+  const std::array views{SilhouetteView{&camera, &mask}};
+  const auto renderer = make_scanline_renderer();
+  grow_and_draw(subject.model, subject.preset.values, 3, settings, *renderer, views, plant);
+  subject.model.generate(subject.preset.values, 3, settings, plant);
+  renderer->draw(plant, camera, expected);
+  EXPECT_EQ(mask, expected);
 }
 
 TEST(GrowAndDraw, ServesRenderersThatNeedTheWholePlant) {
