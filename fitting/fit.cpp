@@ -28,7 +28,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kStartBatch = 8;  ///< start points scored between two looks at the clock
 constexpr std::size_t kMostStarts = 3;  ///< of the best, given to the optimiser
-constexpr int kTracedSize_px = 512;     ///< masks are at least this large where thin twigs are traced
 constexpr double kRefreshSeconds = 3;   ///< the directory is at most this old, unless writing it is slow
 constexpr double kRefreshShare = 0.02;  ///< of the time, at most, is spent writing the directory
 constexpr long kCertaintyShare = 10;    ///< one evaluation to so many of the search tells how sure it is
@@ -318,7 +317,7 @@ void FitRun::refine() {
 std::vector<Solution> FitRun::refinement_starts(const Solution& searched) {
   std::vector<Solution> starts{searched};
   if (state_.kind == kind_name(TreeKind::leafless))
-    starts.push_back(trace_branches(make_task_at(record_, kTracedSize_px, task_.model),
+    starts.push_back(trace_branches(make_task_at(record_, kFullSize_px, task_.model),
                                     {.key = root_key(record_.seed)}, searched));
   return starts;
 }
@@ -363,6 +362,8 @@ MaskMetrics FitRun::untrained_metrics() {
 FitResult FitRun::finish() {
   if (state_.branches.lanes.empty()) state_.best = scorer_.best();
   if (task_.growth.train) state_.metrics_untrained = untrained_metrics();
+  if (!state_.branches.lanes.empty())
+    state_.full_size = look_at_full_size(record_, task_, state_.branches.best());
   refresh_directory();
   const auto best_start =
       std::max_element(state_.starts.begin(), state_.starts.end(),
@@ -371,6 +372,8 @@ FitResult FitRun::finish() {
           .fitness = 1 - state_.best.score,
           .overrides = best_overrides(state_),
           .metrics = state_.best_metrics,
+          .full_size_metrics =
+              state_.full_size ? std::optional<MaskMetrics>(state_.full_size->metrics) : std::nullopt,
           .evaluations = state_.evaluations,
           .branch_steps = state_.branches.steps,
           .seconds = state_.seconds,

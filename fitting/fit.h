@@ -35,6 +35,7 @@ struct FitResult {
   double fitness = 0;   ///< 1 - dissimilarity
   Overrides overrides;  ///< of the branches that were refined
   MaskMetrics metrics;
+  std::optional<MaskMetrics> full_size_metrics;  ///< at 512 pixels, where branches were refined
   long evaluations = 0, branch_steps = 0;
   double seconds = 0;
   std::string stopped_by;  ///< "evaluations", "time", "target_fitness", "interrupted", "converged"

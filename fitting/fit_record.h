@@ -32,10 +32,10 @@ struct FitBudget {
 /// Rounds of refinement until the seconds are over.
 inline constexpr long kWhileTimeLasts = -1;
 
-/// The objective of `espalier fit`: distance and overlap lead; outline and gaps keep a fit from filling a
-/// porous crown (experiments/closeness.md).
+/// The objective of `espalier fit`: outline and distance lead to the ends of thin twigs, gaps keep a fit from
+/// filling a porous crown (experiments/closeness.md).
 inline constexpr const char* kFitObjective =
-    "0.3*truncated_distance+0.2*iou+0.15*tolerant_iou+0.2*outline_iou+0.15*gap_iou";
+    "0.25*truncated_distance+0.15*iou+0.15*tolerant_iou+0.3*outline_iou+0.15*gap_iou";
 
 struct FitRecord {
   std::string model = "weber_penn";

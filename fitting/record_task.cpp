@@ -4,6 +4,7 @@
 #include "environment/picture_envelope.h"
 #include "fitting/trunk_room.h"
 #include "image/read_target.h"
+#include "image/room_to_grow.h"
 #include "models/models.h"
 
 namespace espalier {
@@ -38,11 +39,12 @@ void read_views(FitRecord& record, FitTask& task) {
   record.target_hash = hash_text;
 }
 
-/// Keeps the tree inside of the targets' closed and filled outlines; where these leave no room for its trunk,
-/// it grows without them.
+/// Keeps the tree inside of the targets' outlines, with room beside their thin parts; where these leave no
+/// room for its trunk, it grows without them.
 void grow_into_pictures(const FitRecord& record, FitTask& task) {
   std::vector<PictureOutline> outlines;
-  for (const TargetView& view : task.views) outlines.push_back({view.camera, view.target.outline()});
+  for (const TargetView& view : task.views)
+    outlines.push_back({view.camera, room_to_grow(view.target.outline())});
   task.envelope = make_picture_envelope(std::move(outlines));
   if (!leaves_room_for_trunk(*task.envelope, target_height_m(record))) {
     task.envelope.reset();

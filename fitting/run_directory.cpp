@@ -9,6 +9,7 @@
 #include "fitting/certainty_files.h"
 #include "image/frame.h"
 #include "image/picture.h"
+#include "image/room_to_grow.h"
 #include "models/preset.h"
 
 namespace espalier {
@@ -70,7 +71,7 @@ std::string archived_to_toml(const RunState& state, std::size_t index) {
 /// The outlines that trained trees are grown into.
 void write_outlines(const fs::path& directory, const RunState& state) {
   for (std::size_t i = 0; i < state.task.views.size() && state.task.growth.train; ++i)
-    write_mask_png(numbered(directory, "outline", i), state.task.views[i].target.outline());
+    write_mask_png(numbered(directory, "outline", i), room_to_grow(state.task.views[i].target.outline()));
 }
 
 /// archive/1.toml and so on, the best first; what an earlier state left there goes.
@@ -108,11 +109,23 @@ void write_best_pictures(const fs::path& directory, RunState& state) {
   }
 }
 
+void write_full_size(const fs::path& directory, const FullSize& seen) {
+  for (std::size_t i = 0; i < seen.best.size(); ++i)
+    write_png(numbered(directory, "overlay_full_size", i), overlay(seen.best[i], seen.targets[i]));
+}
+
 void write_history(const fs::path& directory, const RunState& state) {
   const LineChart chart = convergence_chart(state.trace.rows());
   write_file_atomically(directory / "trace.csv", trace_to_csv(state.trace.rows()));
   write_file_atomically(directory / "convergence.svg", chart_to_svg(chart));
   write_png(directory / "convergence.png", chart_to_picture(chart));
+}
+
+nlohmann::ordered_json overlaps_to_json(const MaskMetrics& metrics) {
+  return {{"iou", metrics.iou},
+          {"tolerant_iou", metrics.tolerant_iou},
+          {"outline_iou", metrics.outline_iou},
+          {"gap_iou", metrics.gap_iou}};
 }
 
 nlohmann::ordered_json archive_to_json(const SolutionArchive& archive) {
@@ -187,6 +200,7 @@ void begin_run_directory(const fs::path& directory, const RunState& state) {
 
 void write_run_directory(const fs::path& directory, RunState& state) {
   write_best_pictures(directory, state);
+  if (state.full_size) write_full_size(directory, *state.full_size);
   write_file_atomically(directory / "best.toml", best_to_toml(state));
   if (!state.branches.lanes.empty())
     write_file_atomically(directory / kBranchesFile,
@@ -213,11 +227,10 @@ std::string run_summary(const RunState& state) {
   summary["branch_steps"] = state.branches.steps;
   summary["kind"] = state.kind;
   summary["trained_to_target"] = state.task.growth.train;
-  if (state.metrics_untrained) {
-    summary["without_training"] = {{"iou", state.metrics_untrained->iou},
-                                   {"tolerant_iou", state.metrics_untrained->tolerant_iou},
-                                   {"outline_iou", state.metrics_untrained->outline_iou},
-                                   {"gap_iou", state.metrics_untrained->gap_iou}};
+  if (state.metrics_untrained) summary["without_training"] = overlaps_to_json(*state.metrics_untrained);
+  if (state.full_size) {
+    summary["full_size"] = overlaps_to_json(state.full_size->metrics);
+    summary["full_size"]["size_px"] = state.full_size->best.front().width_px();
   }
   summary["best_at_evaluation"] = state.best.evaluation;
   summary["seconds"] = state.seconds;

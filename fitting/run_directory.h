@@ -12,6 +12,7 @@
 #include "fitting/logged_scorer.h"
 #include "fitting/plant_scorer.h"
 #include "fitting/stages/branch_rounds.h"
+#include "fitting/stages/full_size.h"
 #include "fitting/trace.h"
 
 namespace espalier {
@@ -33,6 +34,7 @@ struct RunState {
   BranchRounds branches = {};                         ///< of the refinement; no lanes before it begins
   std::string kind = {};                              ///< of the tree, as it was read off the picture
   std::optional<MaskMetrics> metrics_untrained = {};  ///< of the same tree grown without the envelope
+  std::optional<FullSize> full_size = {};             ///< once branches are refined
   long evaluations = 0;
   double seconds = 0;
   std::optional<std::string> stopped_by = {};  ///< none while it runs

@@ -13,6 +13,7 @@
 #include "app/version.h"
 #include "core/error.h"
 #include "fitting/fit.h"
+#include "fitting/stages/full_size.h"
 #include "models/models.h"
 
 namespace espalier {
@@ -178,6 +179,10 @@ void print_result(const FitResult& result, const FitRecord& record, const fs::pa
   fmt::print("{} evaluations in {:.1f} s with {} over {} parameters, stopped by {}; best start: {}\n",
              result.evaluations, result.seconds, record.optimizer, result.dimension, result.stopped_by,
              result.best_start);
+  if (const auto& full = result.full_size_metrics)
+    fmt::print("at {} px: IoU {:.4f}, tolerant IoU {:.4f}, outline IoU {:.4f}, gap IoU {:.4f}\n",
+               std::max(kFullSize_px, record.target.size_px), full->iou, full->tolerant_iou,
+               full->outline_iou, full->gap_iou);
   if (result.failures.count > 0)
     fmt::print(stderr, "{} candidates failed and counted as the worst; the first: {}\n",
                result.failures.count, result.failures.first);

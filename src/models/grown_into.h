@@ -1,6 +1,6 @@
 // The pictures a preset's tree is grown into, as a preset names them:
 //   [[grown_into]]
-//   outline = "outline.png"   # beside the preset; what is white, closed and filled, is left to the tree
+//   outline = "outline.png"   # beside the preset; what is white is left to the tree
 //   metres_per_px = 0.09      # and where the base of the tree stands, and where the camera looks from
 // Source: environment/picture_envelope.h.
 #pragma once

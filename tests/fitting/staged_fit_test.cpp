@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "fitting/fit.h"
+#include "fitting/stages/full_size.h"
 #include "models/models.h"
 #include "models/preset.h"
 #include "overrides/change_graph.h"
@@ -33,20 +34,25 @@ nlohmann::json summary_of(const fs::path& run) {
   return nlohmann::json::parse(read_text_file(run / "summary.json"));
 }
 
-/// The mask of the preset in a run's directory, grown as any command grows it.
-Mask regrown(const fs::path& run) {
+struct Regrown {
+  Mask mask, target;
+};
+
+/// The mask of the preset in a run's directory, grown as any command grows it, and the target's of this size.
+Regrown regrown(const fs::path& run, int size_px) {
   const Preset preset = load_preset((run / "best.toml").string());
   const std::unique_ptr<Volume> envelope = envelope_of(preset.grown_into);
   const ChangeGraph changes(preset.overrides);
   const GrowthSettings settings{.prune_to = envelope.get(), .train = true, .changes = &changes};
   Plant plant;
   EXPECT_TRUE(model_by_name(preset.model).generate(preset.values, 1, settings, plant).grown);
-  const FitRecord record = read_record(run / "run.toml").record;
+  FitRecord record = read_record(run / "run.toml").record;
+  record.target.size_px = size_px;
   const TargetPicture target = read_target(record.views[0].picture, record.target);
   Mask mask;
   make_scanline_renderer()->draw(
       plant, make_target_view(target.mask, target.tree_height_px, {}, kNominalHeightM).camera, mask);
-  return mask;
+  return {mask, target.mask};
 }
 
 TEST(StagedFit, TheRefinementIsNotWorseThanTheSearch) {
@@ -65,7 +71,13 @@ TEST(StagedFit, ThePresetItLeavesGrowsTheSamePicture) {
     FitRecord record = staged_record(2);
     record.train_to_target = train;
     fit(record, run);
-    EXPECT_EQ(differing_px(regrown(run), read_mask(run / "best.png").mask), 0u) << "trained: " << train;
+    const Mask mask = regrown(run, record.target.size_px).mask;
+    EXPECT_EQ(differing_px(mask, read_mask(run / "best.png").mask), 0u) << "trained: " << train;
+    const Regrown full = regrown(run, kFullSize_px);
+    const MaskMetrics metrics = compare_masks(full.mask, full.target);
+    const auto reported = summary_of(run)["full_size"];
+    EXPECT_NEAR(reported["iou"], metrics.iou, 1e-6) << "trained: " << train;
+    EXPECT_NEAR(reported["outline_iou"], metrics.outline_iou, 1e-6) << "trained: " << train;
   }
 }
 
