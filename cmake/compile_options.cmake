@@ -8,11 +8,6 @@ target_compile_options(espalier_options INTERFACE -Wall -Wextra -Wno-missing-fie
 if(ESPALIER_WERROR)
   target_compile_options(espalier_options INTERFACE -Werror)
 endif()
-if(ESPALIER_FUZZ AND CMAKE_CXX_COMPILER_ID MATCHES Clang)
-  target_compile_options(espalier_options INTERFACE -fsanitize=fuzzer-no-link)
-  # One instruction set of the code that has several: it is built, but not what is fuzzed.
-  target_compile_definitions(espalier_options INTERFACE HWY_COMPILE_ONLY_STATIC)
-endif()
 if(ESPALIER_SANITIZE)
   target_compile_options(espalier_options INTERFACE -fsanitize=${ESPALIER_SANITIZE}
                          -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -48,8 +48,8 @@ std::string some(const std::vector<std::string>& names) {
 
 constexpr float kRowPx = 20, kTopPx = 74, kBottomPx = 46, kGapPx = 28, kRangePx = 420, kRisePx = 220;
 constexpr float kRightPx = 130;
-constexpr Rgb kInk{60, 60, 60}, kTrack{225, 225, 225}, kSpread{158, 202, 225}, kDot{0, 114, 178},
-    kBest{20, 20, 20}, kRise{213, 94, 0}, kLimit{150, 150, 150};
+constexpr Rgb kTrack{225, 225, 225}, kSpread{158, 202, 225}, kDot{0, 114, 178}, kBest{20, 20, 20},
+    kRise{213, 94, 0}, kLimit{150, 150, 150};
 
 float widest_name_px(const CertaintyReport& report) {
   float widest = 0;

@@ -331,9 +331,9 @@ PictureChange read_change(const TomlSection& section, const std::string& species
     const Preset preset = located(section, "set", [&] { return load_preset(grown); });
     const ParameterTable& table = model_by_name(preset.model).table();
     change.set = set.numbers();
-    for (const auto& [name, value] : change.set)
-      located(set, name, [&] {
-        check_value(table.rows[table.index_of(name)], value, "parameter " + name);
+    for (const auto& entry : change.set)
+      located(set, entry.first, [&] {
+        check_value(table.rows[table.index_of(entry.first)], entry.second, "parameter " + entry.first);
         return 0;
       });
   } else if (section.has("species")) {

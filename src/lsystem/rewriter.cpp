@@ -114,6 +114,7 @@ void Rewriter::choose_among(const Candidates& candidates, const std::vector<Rule
     return apply(*rules[0], candidates, rewriting);
   }
   owners_.assign(count, nullptr);
+  claimants_.assign(count, nullptr);
   totals_.assign(count, 0);
   draws_.assign(count, -1);
   for (Rule* rule : rules) {
@@ -136,7 +137,8 @@ void Rewriter::claim_hits(Rule& rule, const Candidates& candidates, const Rewrit
   for (std::size_t slot = 0; slot < rule.hits().size(); ++slot) {
     const std::size_t i = rule.hits()[slot];
     const bool shared = stochastic && claims_[i] == Claim::stochastic;
-    if (claims_[i] != Claim::none && !shared) fail_conflict(rule, *owners_[i], candidates, i, rewriting);
+    if (claims_[i] != Claim::none && !shared) fail_conflict(rule, *claimants_[i], candidates, i, rewriting);
+    claimants_[i] = &rule;
     if (!stochastic) {
       claims_[i] = Claim::deterministic;
       owners_[i] = &rule;

@@ -63,7 +63,8 @@ class Rewriter {
   std::vector<Choice> choices_;
   Candidates unclaimed_;
   std::vector<Claim> claims_;           ///< by candidate
-  std::vector<Rule*> owners_;           ///< the rule that a candidate gets, or may get
+  std::vector<Rule*> claimants_;        ///< the rule that claimed a candidate last
+  std::vector<Rule*> owners_;           ///< the rule that a candidate gets: none where the draw says so
   std::vector<double> totals_, draws_;  ///< probabilities so far, and what was drawn
   std::vector<std::uint8_t> keep_;
 };

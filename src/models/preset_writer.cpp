@@ -12,8 +12,9 @@ namespace espalier {
 namespace {
 
 std::string value_to_toml(const ParameterInfo& row, double value) {
-  const auto choice = static_cast<std::size_t>(value - row.first_choice);
-  if (row.scale == Scale::choice && choice < row.choices.size()) return quote_toml(row.choices[choice]);
+  const double choice = value - row.first_choice;
+  if (row.scale == Scale::choice && choice >= 0 && choice < static_cast<double>(row.choices.size()))
+    return quote_toml(row.choices[static_cast<std::size_t>(choice)]);
   return fmt::format("{}", value);
 }
 

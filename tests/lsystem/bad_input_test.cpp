@@ -81,6 +81,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"axiom: A(1)\nproductions:\n p1: A(x) --> A(x) : -1\n", "probability is -1"},
         Fault{"axiom: A\nproductions:\n p1: A --> B\n p2: A --> C\n",
               "module A: p2 and p1 (bad.lsys:3:2) both apply"},
+        Fault{"axiom: A\nproductions:\n p1: A --> B : 0\n p2: A --> C\n",
+              "module A: p2 and p1 (bad.lsys:3:2) both apply"},
         Fault{"axiom: F(1,2,3,4,5,6)\n",
               "bad.lsys:1:8: module F: got 6 parameters, the turtle expects 0 to 5"},
         Fault{"axiom: A\nproductions:\n p1: A --> @(1,2)\n",

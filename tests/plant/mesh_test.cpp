@@ -67,11 +67,11 @@ TEST(Tube, CylinderHasTheVolumeAndAreaOfItsPrism) {
 }
 
 TEST(Tube, ManySidesComeCloseToTheRoundCylinderAndCone) {
-  const double r = 0.3, h = 2;
-  const TriangleMesh cylinder = tube({{{0, 0, 0}, {0, h, 0}}, {0.3f, 0.3f}}, 64);
+  const float r = 0.3f, h = 2;
+  const TriangleMesh cylinder = tube({{{0, 0, 0}, {0, h, 0}}, {r, r}}, 64);
   EXPECT_NEAR(enclosed_volume_m3(cylinder), kPi * r * r * h, 0.002 * kPi * r * r * h);
   EXPECT_NEAR(area_m2(cylinder), 2 * kPi * r * (h + r), 0.001 * 2 * kPi * r * (h + r));
-  const TriangleMesh cone = tube({{{0, 0, 0}, {h, 0, 0}}, {0.3f, 0}}, 64);
+  const TriangleMesh cone = tube({{{0, 0, 0}, {h, 0, 0}}, {r, 0}}, 64);
   EXPECT_NEAR(enclosed_volume_m3(cone), kPi * r * r * h / 3, 0.002 * kPi * r * r * h / 3);
   const double cone_area = kPi * r * (r + std::hypot(r, h));
   EXPECT_NEAR(area_m2(cone), cone_area, 0.001 * cone_area);
