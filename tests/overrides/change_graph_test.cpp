@@ -86,7 +86,8 @@ TEST(ChangeGraph, SeedsAndRemovalsAreNotInherited) {
 TEST(ChangeGraph, SharedSetsComeFirstAndMayChangeForAllAtOnce) {
   Overrides overrides;
   overrides.shared["low"].overrides = {factor(kLength, 2)};
-  overrides.at({0, 1}).set.shares = overrides.at({0, 2}).set.shares = "low";
+  overrides.at({0, 1}).set.shares = "low";
+  overrides.at({0, 2}).set.shares = "low";
   say(overrides, {0, 2}, factor(kLength, 3));
   EXPECT_EQ(changed_at(overrides, {0, 1}, kLength, 1), 2);
   EXPECT_EQ(changed_at(overrides, {0, 2}, kLength, 1), 3);
