@@ -41,7 +41,12 @@ class LeafEdges {
     }
   }
 
-  bool has(std::size_t chain, std::size_t more) const { return chain_ == chain && count_ == chain + more; }
+  /// Two more edges are a band: they begin at one height and end at one height.
+  bool has(std::size_t chain, std::size_t more) const {
+    if (chain_ != chain || count_ != chain + more) return false;
+    const Edge &last = edges_[count_ - 1], &other = edges_[count_ - std::min<std::size_t>(count_, 2)];
+    return more != 2 || (last.y0 == other.y0 && last.y1 == other.y1);
+  }
 
   /// LeafHalf::contains of each lane, for x of either sign. With kChain > 0: only where
   /// has(kChain, kMore).
@@ -49,11 +54,14 @@ class LeafEdges {
   hn::Mask<Floats> contain(Vector x, Vector y) const {
     x = hn::Abs(x);
     auto inside = chain_contains<kChain>(x, y);
+    if constexpr (kMore == 2) {
+      const Edge &a = edges_[kChain], &b = edges_[kChain + 1];
+      return hn::Xor(inside, hn::And(is_between(y, a, a), hn::Xor(is_left_of(a, x, y), is_left_of(b, x, y))));
+    }
     const std::size_t chain = kChain == 0 ? chain_ : kChain, count = kChain == 0 ? count_ : kChain + kMore;
     for (std::size_t i = chain; i < count; ++i) {
       const Edge& edge = edges_[i];
-      const Vector edge_x = hn::Add(of(edge.at_zero), hn::Mul(of(edge.slope), y));
-      inside = hn::Xor(inside, hn::And(is_between(y, edge, edge), hn::Lt(x, edge_x)));
+      inside = hn::Xor(inside, hn::And(is_between(y, edge, edge), is_left_of(edge, x, y)));
     }
     return inside;
   }
@@ -66,6 +74,9 @@ class LeafEdges {
   };
 
   static Vector of(const Lanes& lanes) { return hn::Load(Floats(), lanes.data()); }
+  static hn::Mask<Floats> is_left_of(const Edge& edge, Vector x, Vector y) {
+    return hn::Lt(x, hn::Add(of(edge.at_zero), hn::Mul(of(edge.slope), y)));
+  }
   static hn::Mask<Floats> is_between(Vector y, const Edge& lowest, const Edge& highest) {
     return hn::And(hn::Ge(y, of(lowest.y0)), hn::Lt(y, of(highest.y1)));
   }

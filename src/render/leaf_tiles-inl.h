@@ -39,7 +39,7 @@ struct LeafLanes {
 
 class LeafTiles {
  public:
-  static constexpr int kWidestPx = 8;
+  static constexpr int kWidestPx = 12;
 
   LeafTiles(const LeafEdges& edges, Mask& mask)
       : edges_(edges),
@@ -57,10 +57,14 @@ class LeafTiles {
     const auto across = hn::IfThenElseZero(is_small, width), down = hn::IfThenElseZero(is_small, height);
     const int widest = hn::GetLane(hn::MaxOfLanes(di, across)),
               highest = hn::GetLane(hn::MaxOfLanes(di, down));
-    for (int row = 0; row < highest; row += kHeight)
-      for (int column = 0; column < widest; column += kWidth)
-        add_tiles(leaves, column, row, hn::Sub(across, hn::Set(di, column)), hn::Sub(down, hn::Set(di, row)),
-                  std::min(kHeight, highest - row));
+    for (int row = 0; row < highest; row += kHeight) {
+      const int rows = std::min(kHeight, highest - row);
+      const auto left = hn::Sub(down, hn::Set(di, row));
+      const SetPixels set = set_pixels(leaves, row, rows, widest > kWidth);
+      add_tiles(leaves, 0, row, across, left, set.first);
+      if (widest > kWidth)
+        add_tiles(leaves, kWidth, row, hn::Sub(across, hn::Set(di, kWidth)), left, set.second);
+    }
   }
 
   /// Sets the pixels of all tiles that are inside of their leaves, and empties the queue.
@@ -87,13 +91,14 @@ class LeafTiles {
   /// Of the pixels of a tile.
   struct Place {
     float column, row;
+    std::int32_t bit;
   };
   static constexpr std::array<Place, kWidth* kHeight> kPlaces = [] {
     std::array<Place, kWidth * kHeight> places{};
     std::size_t i = 0;
     for (int row = 0; row < kHeight; ++row)
       for (int column = 0; column < kWidth; ++column)
-        places[i++] = {static_cast<float>(column), static_cast<float>(row)};
+        places[i] = {static_cast<float>(column), static_cast<float>(row), std::int32_t{1} << i}, ++i;
     return places;
   }();
   template <typename T>
@@ -104,12 +109,12 @@ class LeafTiles {
 
   /// The tiles that begin at this pixel of their leaves, of which `right` and `down` pixels are left there.
   void add_tiles(const LeafLanes& leaves, int column, int row, IntegerLanes right, IntegerLanes down,
-                 int rows) {
+                 IntegerLanes set_already) {
     const Integers di;
     const Floats d;
     const auto x = hn::Add(leaves.columns.begin, hn::Set(di, column)),
                y = hn::Add(leaves.rows.begin, hn::Set(di, row));
-    const auto unset = unset_pixels(x, y, clamped(right, kWidth), clamped(down, kHeight), rows);
+    const auto unset = hn::AndNot(set_already, tile_pixels(clamped(right, kWidth), clamped(down, kHeight)));
     const Packing packing(hn::Ne(unset, hn::Zero(di)));
     const auto put = [&](const LinearLanes& from, LinearColumns& to) {
       const Vector first = from.at(set(static_cast<float>(column)), set(static_cast<float>(row)));
@@ -131,26 +136,41 @@ class LeafTiles {
     return hn::Min(hn::Max(pixels, hn::Zero(di)), hn::Set(di, most));
   }
 
-  /// The pixels not set yet of the first `width` × `height` pixels from (x, y): bit kWidth·row + column of
-  /// each number. None is higher than `most_rows`.
-  IntegerLanes unset_pixels(IntegerLanes x, IntegerLanes y, IntegerLanes width, IntegerLanes height,
-                            int most_rows) const {
-    static_assert(std::endian::native == std::endian::little);
+  /// Bit kWidth·row + column of each number, of the first `width` × `height` pixels of a tile.
+  static IntegerLanes tile_pixels(IntegerLanes width, IntegerLanes height) {
     const Integers di;
-    const int row_bytes = 8 * words_per_row_;
-    const auto byte = hn::Min(hn::ShiftRight<3>(x), hn::Set(di, row_bytes - 4)),
-               shift = hn::Min(hn::Sub(x, hn::ShiftLeft<3>(byte)), hn::Set(di, 31));
-    auto set = hn::Zero(di);
-    for (int row = 0; row < most_rows; ++row) {
-      const auto line = hn::Min(hn::Add(y, hn::Set(di, row)), hn::Set(di, last_row_));
-      const auto offset = hn::Add(hn::Mul(line, hn::Set(di, row_bytes)), byte);
-      const auto bits = hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(words_), offset);
-      set =
-          hn::Or(set, hn::ShiftLeftSame(hn::And(hn::Shr(bits, shift), hn::Set(di, kRowBits)), kWidth * row));
-    }
     const auto one = hn::Set(di, 1), rows = hn::Sub(hn::Shl(one, hn::Mul(height, hn::Set(di, kWidth))), one),
                columns = hn::Mul(hn::Sub(hn::Shl(one, width), one), hn::Set(di, kFirstColumn));
-    return hn::AndNot(set, hn::And(rows, columns));
+    return hn::And(rows, columns);
+  }
+
+  /// The pixels set already in the tiles at the left edges of the leaves, and in those right of them.
+  struct SetPixels {
+    IntegerLanes first, second;
+  };
+
+  /// `rows` rows from `row` on. The second tiles are looked at only where `has_second`: one gather serves
+  /// both.
+  SetPixels set_pixels(const LeafLanes& leaves, int row, int rows, bool has_second) const {
+    static_assert(std::endian::native == std::endian::little && kWidestPx <= 2 * kWidth);
+    const Integers di;
+    const int row_bytes = 8 * words_per_row_;
+    const auto x = leaves.columns.begin, y = hn::Add(leaves.rows.begin, hn::Set(di, row));
+    const auto byte = hn::Min(hn::ShiftRight<3>(x), hn::Set(di, row_bytes - 4)),
+               shift = hn::Min(hn::Sub(x, hn::ShiftLeft<3>(byte)), hn::Set(di, 31));
+    SetPixels set{hn::Zero(di), hn::Zero(di)};
+    const auto add = [&](IntegerLanes& to, IntegerLanes bits, int at) {
+      to = hn::Or(to, hn::ShiftLeftSame(hn::And(bits, hn::Set(di, kRowBits)), kWidth * at));
+    };
+    const auto first_row = hn::Mul(y, hn::Set(di, row_bytes)), last_row = hn::Set(di, last_row_ * row_bytes);
+    for (int i = 0; i < rows; ++i) {
+      const auto offset = hn::Add(hn::Min(hn::Add(first_row, hn::Set(di, i * row_bytes)), last_row), byte);
+      const auto bits =
+          hn::Shr(hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(words_), offset), shift);
+      add(set.first, bits, i);
+      if (has_second) add(set.second, hn::ShiftRight<kWidth>(bits), i);
+    }
+    return set;
   }
 
   /// A vector of tiles without pixels, to fill up the last one.
@@ -182,7 +202,7 @@ class LeafTiles {
       const Vector column = set(kPlaces[pixel].column), row = set(kPlaces[pixel].row);
       const auto is_inside =
           hn::RebindMask(di, edges_.contain<kChain, kMore>(x.at(column, row), y.at(column, row)));
-      inside = hn::Or(inside, hn::IfThenElseZero(is_inside, hn::Set(di, std::int32_t{1} << pixel)));
+      inside = hn::Or(inside, hn::IfThenElseZero(is_inside, hn::Set(di, kPlaces[pixel].bit)));
     }
     auto bits = hn::And(inside, unset);
     auto line = hn::Load(di, &row_[at]);

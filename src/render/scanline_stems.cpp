@@ -186,11 +186,20 @@ class PointQueue {
   Points<std::int32_t> is_cone_;  ///< -1 where a cone leads to the next point, or 0
 };
 
+bool has_pixels(const Mask& mask) {
+  return std::ranges::any_of(mask.words(), [](std::uint64_t word) { return word != 0; });
+}
+
+bool is_hidden(const Mask& mask, const PixelRectangle& box) {
+  return mask.get(box.begin_x, box.begin_y) && is_covered(mask, box);
+}
+
 /// The stems' segments in order, prepared in batches. A few at the end of the arrays are left to StemPen.
 void draw_orthographic(const Plant& plant, const Camera& camera, Mask& mask) {
   const Knots& knots = plant.knots;
   const OrthographicLanes lanes_of_camera(camera);
   const StemPen pen(plant, camera);
+  const bool may_be_hidden = has_pixels(mask);  // leaves came first; stems seldom hide each other
   const std::size_t lanes = hn::Lanes(Floats());
   CurveColumns curves;
   PointQueue queue(mask);
@@ -209,8 +218,7 @@ void draw_orthographic(const Plant& plant, const Camera& camera, Mask& mask) {
       }
       const int cones = curves.cones[k - first];
       if (cones == 0) continue;
-      const PixelRectangle box = curves.box(k - first);
-      if (mask.get(box.begin_x, box.begin_y) && is_covered(mask, box)) continue;
+      if (may_be_hidden && is_hidden(mask, curves.box(k - first))) continue;
       queue.add(curves, k - first, cones, queued_to == k && k > plant.stems.first_knot[stem]);
       queued_to = k + 1;
     }

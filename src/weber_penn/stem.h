@@ -57,6 +57,8 @@ struct ExtraCurve {
 };
 
 struct GrowingStem {
+  GrowingStem() {}  // NOLINT: not "= default", which would let emplace_back fill it with zeros first
+
   RandomKey key;
   int level = 0;
   std::int32_t parent = -1;  ///< index in Plant::stems

@@ -82,10 +82,10 @@ void TwigBatch::note(const GrowingStem& stem, int first_row, int count) {
   }
 }
 
-/// Not pruned yet.
-GrowingStem TwigBatch::made(std::size_t row) const {
+/// Not pruned yet. Filled in where it stays: copies would wait for what was just written.
+GrowingStem& TwigBatch::add_made(std::size_t row) {
   const auto vec3 = [&](const WaitingChildren::Columns3& c) { return Vec3{c.x[row], c.y[row], c.z[row]}; };
-  GrowingStem stem;
+  GrowingStem& stem = stems_.emplace_back();
   stem.key = child_key(parents_.key[row], static_cast<std::uint64_t>(waiting_.index[row]));
   stem.level = parent_level_ + 1;
   stem.parent = stem.origin = parents_.index[row];
@@ -113,8 +113,7 @@ void TwigBatch::flush() {
   HWY_DYNAMIC_DISPATCH(make_stems)(p_, parent_level_ + 1, parents_, waiting_, made_);
   for (std::size_t row = 0; row < static_cast<std::size_t>(waiting_.count); ++row) {
     if (waiting_.parent_radius_m[row] < kThinnestParentM || made_.length_m[row] < kShortestStemM) continue;
-    stems_.push_back(made(row));
-    GrowingStem& stem = stems_.back();
+    GrowingStem& stem = add_made(row);
     if (surely_fits(stem)) continue;
     const float length_m = pruned_length_m(stem, p_, settings_.prune_to);
     if (length_m == stem.length_m) continue;

@@ -45,7 +45,7 @@ class TwigBatch : public ChildBatch {
   void flush() override;
 
  private:
-  GrowingStem made(std::size_t row) const;
+  GrowingStem& add_made(std::size_t row);
   bool surely_fits(const GrowingStem& stem) const;
 
   float growth(const GrowingStem&, float grown_fraction) const override { return grown_fraction; }

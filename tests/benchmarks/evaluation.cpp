@@ -1,6 +1,6 @@
 // What one evaluation of a fit costs, part by part: generate, draw (by Embree: build the scene, trace the
-// mask; by scan lines: scan), compare with a target, and all of them. One thread, all leaves, whole plant in
-// the frame, a new seed each time.
+// mask; by scan lines: scan), compare with a target, and all of them, also without leaves. One thread, whole
+// plant in the frame, a new seed each time.
 //   build/bin/bench_evaluation --benchmark_filter=quaking_aspen
 #include <benchmark/benchmark.h>
 
@@ -24,8 +24,9 @@ struct Setting {
   Camera camera;
   Mask target;
 
-  Setting(const std::string& species, int size_px)
+  Setting(const std::string& species, int size_px, bool leaves = true)
       : preset(load_preset(species)), model(model_by_name(preset.model)) {
+    if (!leaves) preset.values[*model.table().find("leaf_blos_num")] = 0;
     const Plant plant = grown(1000);
     camera = frame_bounds(bounds(plant), {}, size_px, size_px);
     EmbreeScene scene;
@@ -92,9 +93,7 @@ void scan(benchmark::State& state, const std::string& species, int size_px) {
   state.counters["px"] = static_cast<double>(area_px(mask));
 }
 
-void evaluate_with(SilhouetteRenderer& renderer, benchmark::State& state, const std::string& species,
-                   int size_px) {
-  const Setting setting(species, size_px);
+void evaluate_with(SilhouetteRenderer& renderer, benchmark::State& state, const Setting& setting) {
   Plant plant;
   Mask mask;
   const std::array pictures{SilhouetteView{&setting.camera, &mask}};
@@ -107,11 +106,15 @@ void evaluate_with(SilhouetteRenderer& renderer, benchmark::State& state, const 
 }
 
 void evaluate_embree(benchmark::State& state, const std::string& species, int size_px) {
-  evaluate_with(*make_embree_renderer(), state, species, size_px);
+  evaluate_with(*make_embree_renderer(), state, {species, size_px});
 }
 
 void evaluate_scanline(benchmark::State& state, const std::string& species, int size_px) {
-  evaluate_with(*make_scanline_renderer(), state, species, size_px);
+  evaluate_with(*make_scanline_renderer(), state, {species, size_px});
+}
+
+void evaluate_bare(benchmark::State& state, const std::string& species, int size_px) {
+  evaluate_with(*make_scanline_renderer(), state, {species, size_px, false});
 }
 
 using Part = void (*)(benchmark::State&, const std::string&, int);
@@ -138,6 +141,7 @@ bool add_all() {
       add("scan", scan, species, size_px);
       add("evaluate_embree", evaluate_embree, species, size_px);
       add("evaluate_scanline", evaluate_scanline, species, size_px);
+      add("evaluate_bare", evaluate_bare, species, size_px);
     }
   }
   return true;
