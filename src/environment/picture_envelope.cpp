@@ -35,19 +35,21 @@ class OneOutline {
       : camera_(picture.camera),
         distance_px_(distances_to_unset_px(picture.outline)),
         outer_distance_px_(distances_to_set_px(picture.outline)),
+        right_(picture.camera.right * (1 / picture.camera.metres_per_px)),
+        down_(picture.camera.up * (-1 / picture.camera.metres_per_px)),
         base_depth_m_(project(picture.camera, {0, 0, 0}).depth_m),
         limits_depth_(limits_depth) {
     for (int y = 0; y < picture.outline.height_px(); ++y) add_row(extent_of_row(picture.outline, y), y);
   }
 
   bool contains(Vec3 point_m) const {
-    const PicturePoint seen = project(camera_, point_m);
+    const PicturePoint seen = look_at(point_m);
     return distance_px(seen) > 0 && depth_room_m(seen) >= 0;
   }
 
   /// The larger of the distances across the picture and in depth: never more than the true one outside.
   float signed_distance_m(Vec3 point_m) const {
-    const PicturePoint seen = project(camera_, point_m);
+    const PicturePoint seen = look_at(point_m);
     const bool flat = camera_.projection == Projection::orthographic;
     const float across_m = picture_distance_px(seen) * camera_.metres_per_px * (flat ? 1 : seen.depth_m);
     return limits_depth_ ? std::max(across_m, -depth_room_m(seen)) : across_m;
@@ -56,13 +58,21 @@ class OneOutline {
   /// Only where a pixel has one size at all depths.
   bool surely_contains_ball(Vec3 center_m, float radius_m) const {
     if (camera_.projection != Projection::orthographic) return false;
-    const PicturePoint seen = project(camera_, center_m);
+    const PicturePoint seen = look_at(center_m);
     constexpr float kPixel = 1.5f;  // the distances are those of pixel centres
     return (distance_px(seen) - kPixel) * camera_.metres_per_px > radius_m &&
            (!limits_depth_ || ball_in_depth(seen, radius_m));
   }
 
  private:
+  /// project(camera_, point_m), without its divisions where a pixel has one size at all depths.
+  PicturePoint look_at(Vec3 point_m) const {
+    if (camera_.projection != Projection::orthographic) return project(camera_, point_m);
+    const Vec3 offset = point_m - camera_.position_m;
+    return {camera_.center_x_px + dot(offset, right_), camera_.center_y_px + dot(offset, down_),
+            dot(offset, camera_.forward)};
+  }
+
   /// Negative inside; half a pixel less than between centres, because the outline runs between them.
   float picture_distance_px(const PicturePoint& seen) const {
     if (const float inside_px = distance_px(seen); inside_px > 0) return 0.5f - inside_px;
@@ -130,6 +140,7 @@ class OneOutline {
   std::vector<float> half_widths_px_;
   static constexpr float kFar = std::numeric_limits<float>::infinity();
   float left_px_ = kFar, right_px_ = -kFar, top_px_ = kFar, bottom_px_ = -kFar;  ///< around what is set
+  Vec3 right_, down_;  ///< of the picture, in pixels a metre
   float base_depth_m_;
   bool limits_depth_;
 };

@@ -1,7 +1,6 @@
 #include "image/compare.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "core/error.h"
 #include "image/bits.h"
@@ -17,16 +16,18 @@ void check_same_size(const Mask& a, const Mask& b) {
   ESPALIER_CHECK_EQ(a.height_px(), b.height_px());
 }
 
-/// Of the words of three masks of one size, the target's outline first.
-double gap_iou(Words outline, Words candidate, Words target) {
-  std::size_t in_candidate = 0, in_target = 0, in_both = 0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const std::uint64_t a = outline[i] & ~candidate[i], b = outline[i] & ~target[i];
-    in_candidate += static_cast<std::size_t>(std::popcount(a));
-    in_target += static_cast<std::size_t>(std::popcount(b));
-    in_both += static_cast<std::size_t>(std::popcount(a & b));
-  }
-  const std::size_t in_any = in_candidate + in_target - in_both;
+/// What of the target's outline its mask leaves free.
+Mask gaps_of(const Mask& target, const Mask& outline) {
+  Mask gaps = outline;
+  for (std::size_t i = 0; i < gaps.words().size(); ++i) gaps.words()[i] &= ~target.words()[i];
+  return gaps;
+}
+
+/// Of masks of one size; the first two are the target's.
+double gap_iou(const Mask& outline, const Mask& gaps, const Mask& candidate) {
+  const std::size_t in_candidate = count_and_not(outline.words(), candidate.words()),
+                    in_both = count_and_not(gaps.words(), candidate.words()),
+                    in_any = in_candidate + count_bits(gaps.words()) - in_both;
   return in_any == 0 ? 1 : static_cast<double>(in_both) / static_cast<double>(in_any);
 }
 
@@ -110,7 +111,7 @@ double outline_iou_term(const Counts&, const Mask& candidate, const PreparedTarg
 }
 
 double gap_iou_term(const Counts&, const Mask& candidate, const PreparedTarget& target) {
-  return 1 - gap_iou(target.outline().words(), candidate.words(), target.mask().words());
+  return 1 - gap_iou(target.outline(), target.gaps(), candidate);
 }
 
 struct TermRow {
@@ -161,7 +162,8 @@ double outline_iou(const Mask& a, const Mask& b) {
 
 double gap_iou(const Mask& candidate, const Mask& target) {
   check_same_size(candidate, target);
-  return gap_iou(outline_of(target).words(), candidate.words(), target.words());
+  const Mask outline = outline_of(target);
+  return gap_iou(outline, gaps_of(target, outline), candidate);
 }
 
 double truncated_distance(const Mask& a, const Mask& b) {
@@ -190,12 +192,13 @@ MaskMetrics compare_masks(const Mask& candidate, const PreparedTarget& target) {
           block_iou(count_blocks(candidate), target.block_counts()),
           iou(outline_of(candidate), target.outline()),
           truncated_distance(n, candidate, target),
-          gap_iou(target.outline().words(), candidate.words(), target.mask().words())};
+          gap_iou(target.outline(), target.gaps(), candidate)};
 }
 
 PreparedTarget::PreparedTarget(Mask target)
     : mask_(std::move(target)),
       outline_(outline_of(mask_)),
+      gaps_(gaps_of(mask_, outline_)),
       set_pixels_(area_px(mask_)),
       block_counts_(count_blocks(mask_)),
       distance_bits_(distance_bit_planes(mask_, distance_limit_px(larger_side_px(mask_)))) {}

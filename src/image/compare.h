@@ -61,6 +61,7 @@ class PreparedTarget {
 
   const Mask& mask() const { return mask_; }
   const Mask& outline() const { return outline_; }
+  const Mask& gaps() const { return gaps_; }  ///< of the outline, what the mask leaves free
   std::size_t set_pixels() const { return set_pixels_; }
   /// Set pixels in each 8×8 block, rows of blocks from the top.
   const std::vector<std::uint8_t>& block_counts() const { return block_counts_; }
@@ -68,7 +69,7 @@ class PreparedTarget {
   const std::vector<Mask>& distance_bits() const { return distance_bits_; }
 
  private:
-  Mask mask_, outline_;
+  Mask mask_, outline_, gaps_;
   std::size_t set_pixels_ = 0;
   std::vector<std::uint8_t> block_counts_;
   std::vector<Mask> distance_bits_;
