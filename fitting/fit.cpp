@@ -14,6 +14,7 @@
 #include "fitting/record_task.h"
 #include "fitting/space_search.h"
 #include "fitting/stages/branch_tracing.h"
+#include "fitting/stages/finish.h"
 #include "fitting/stages/picture_reading.h"
 #include "fitting/start_points.h"
 #include "models/models.h"
@@ -121,14 +122,19 @@ class FitRun : public Observer {
                       std::vector<double>& scores);
   MinimizeResult minimize(const Objective& objective, long evaluations, std::span<const double> points);
   void search(const std::vector<StartPoint>& starts, const std::vector<double>& scores);
+  void begin_from_best(const std::vector<StartPoint>& starts, const std::vector<double>& scores);
   bool will_refine() const {
-    return record_.budget.branch_rounds != 0 && record_.fit_seeds == 1 && task_.model->has_branch_paths();
+    return record_.stages.refine() && record_.budget.branch_rounds != 0 && record_.fit_seeds == 1 &&
+           task_.model->has_branch_paths();
   }
   bool search_time_is_over() const;
   void measure_how_sure();
   void refine();
-  std::vector<Solution> refinement_starts(const Solution& searched);
+  std::vector<Solution> refinement_starts();
   void go_on_from(const BranchRounds& reached);
+  void refine_by_rounds();
+  void begin_finish();
+  bool finishing() const { return state_.branches.finish_from >= 0; }
   void note_round();
   void add_to_trace(const RoundRow& row);
   MaskMetrics untrained_metrics();
@@ -146,6 +152,8 @@ class FitRun : public Observer {
   PlantScorer plant_scorer_;
   LoggedScorer scorer_;
   std::unique_ptr<SilhouetteRenderer> renderer_;
+  std::optional<FitTask> finer_task_;  ///< once the finish begins
+  Overrides given_overrides_;          ///< of a start that is not searched from
   std::size_t dimension_ = 0;
   std::string stage_ = "starts";
   double seconds_before_ = 0;  ///< of the run up to live_since_
@@ -174,7 +182,7 @@ bool FitRun::stop_requested() {
 /// Where refinement follows for as long as time lasts.
 bool FitRun::search_time_is_over() const {
   return record_.budget.branch_rounds == kWhileTimeLasts && will_refine() && state_.branches.lanes.empty() &&
-         seconds() >= search_share(state_.kind) * record_.budget.seconds;
+         record_.stages.search && seconds() >= search_share(state_.kind) * record_.budget.seconds;
 }
 
 void FitRun::on_scored(const ScoredBatch& batch) {
@@ -281,6 +289,13 @@ void FitRun::search(const std::vector<StartPoint>& starts, const std::vector<dou
   if (!stop_requested()) state_.stopped_by = "converged";
 }
 
+/// Without a search.
+void FitRun::begin_from_best(const std::vector<StartPoint>& starts, const std::vector<double>& scores) {
+  const auto best = static_cast<std::size_t>(std::min_element(scores.begin(), scores.end()) - scores.begin());
+  given_overrides_ = starts[best].overrides;
+  if (!state_.stopped_by) state_.stopped_by = "stages";
+}
+
 /// From the search alone, so that it comes out the same when the run is resumed.
 void FitRun::measure_how_sure() {
   if (!state_.archive || state_.stopped_by == "interrupted") return;
@@ -292,31 +307,49 @@ void FitRun::measure_how_sure() {
 void FitRun::refine() {
   if (state_.stopped_by == "interrupted" || state_.stopped_by == "target_fitness") return;
   state_.stopped_by.reset();
-  stage_ = "branches";
   state_.best = scorer_.best();
   const auto reached = reached_rounds(record_, directory_, options_);
-  const Solution start{scorer_.best().values, task_.plant_seeds.front(), {}, scorer_.best().score};
   if (reached)
     go_on_from(*reached);
   else {
-    state_.branches = begin_branch_rounds(task_, refinement_starts(start), scorer_.evaluations());
+    const std::vector<Solution> starts = refinement_starts();
+    stage_ = starts.size() > 1 ? "tracing" : "branches";
+    state_.branches = begin_branch_rounds(task_, starts, scorer_.evaluations());
     state_.branches.search_limit = record_.budget.evaluations;
     note_round();
   }
+  refine_by_rounds();
+}
+
+void FitRun::refine_by_rounds() {
+  if (finishing()) finer_task_ = with_finer_views(record_, task_);
   while (!stop_requested()) {
     if (state_.branches.rounds == record_.budget.branch_rounds) {
       state_.stopped_by = "rounds";
       return;
     }
-    refine_round(task_, record_.seed, threads_, state_.branches);
+    if (!finishing() && finish_is_due(record_, state_.branches, seconds())) begin_finish();
+    stage_ = finishing() ? "finish" : "branches";
+    refine_round(finishing() ? *finer_task_ : task_, record_.seed, threads_, state_.branches);
     note_round();
   }
 }
 
+/// From here on scores are those at both sizes.
+void FitRun::begin_finish() {
+  finer_task_ = with_finer_views(record_, task_);
+  state_.branches.finish_from = state_.branches.rounds;
+  rescore(*finer_task_, state_.branches);
+  stage_ = "finish";
+  note_round();
+}
+
 /// The best of the search; beside it, where the picture shows its branches, the tree traced along them.
-std::vector<Solution> FitRun::refinement_starts(const Solution& searched) {
+std::vector<Solution> FitRun::refinement_starts() {
+  const Solution searched{scorer_.best().values, task_.plant_seeds.front(), given_overrides_,
+                          scorer_.best().score};
   std::vector<Solution> starts{searched};
-  if (state_.kind == kind_name(TreeKind::leafless))
+  if (record_.stages.tracing && state_.kind == kind_name(TreeKind::leafless))
     starts.push_back(trace_branches(make_task_at(record_, kFullSize_px, task_.model),
                                     {.key = root_key(record_.seed)}, searched));
   return starts;
@@ -335,7 +368,7 @@ void FitRun::note_round() {
   const Solution& best = state_.branches.best();
   const std::vector<Mask> masks = draw_candidate(task_, best.values, *renderer_, best.overrides);
   state_.branches.history.push_back(
-      {state_.branches.steps, seconds(), best.score, mean_metrics(task_, masks)});
+      {stage_, state_.branches.steps, seconds(), best.score, mean_metrics(task_, masks)});
   add_to_trace(state_.branches.history.back());
   if (seconds() - refreshed_at_ > std::max(kRefreshSeconds, refresh_cost_ / kRefreshShare))
     refresh_directory();
@@ -348,7 +381,7 @@ void FitRun::add_to_trace(const RoundRow& row) {
   state_.best.values = state_.branches.best().values;
   state_.best_metrics = row.metrics;
   state_.trace.add_round(scorer_.evaluations() + row.steps, row.seconds, improved, row.score, row.metrics,
-                         stage_);
+                         row.stage);
 }
 
 /// Of the same parameters and overrides, grown as if there were no picture to grow into.
@@ -388,7 +421,10 @@ FitResult FitRun::run(std::vector<StartPoint> starts, const std::optional<Specie
   std::vector<double> scores = score_starts(starts);
   plant_scorer_.forgive_failures();
   if (species) search_species(*species, starts, scores);
-  search(starts, scores);
+  if (record_.stages.search)
+    search(starts, scores);
+  else
+    begin_from_best(starts, scores);
   measure_how_sure();
   if (will_refine()) refine();
   return finish();

@@ -63,12 +63,14 @@ void read_budget(const TomlSection& section, FitRecord& record) {
   record.budget.seconds = section.number("seconds");
   record.budget.target_fitness = section.number("target_fitness");
   record.budget.branch_rounds = section.whole_or("branch_rounds", 0);  // earlier versions have none
+  record.budget.finish_from = section.whole_or("finish_from", kLastShare);
   record.growth.max_stems = section.number("max_stems");
   record.growth.max_leaves = section.number("max_leaves");
 }
 
 void read_search(const TomlSection& section, FitRecord& record) {
   record.start = section.text("start");
+  record.stages = parse_stages(section.text_or("stages", to_string(FitStages{})));
   record.space = section.text_or("space", record.space);  // records of earlier versions have none
   record.space_evaluations = section.whole_or("space_evaluations", record.space_evaluations);
   record.search.free = section.texts("free");
@@ -78,7 +80,8 @@ void read_search(const TomlSection& section, FitRecord& record) {
 std::optional<FitOutcome> read_outcome(const TomlSection& section) {
   if (!section.table.contains("outcome")) return std::nullopt;
   const TomlSection outcome = section.section("outcome");
-  return FitOutcome{outcome.whole("evaluations"), outcome.whole_or("branch_rounds", 0),
+  const long rounds = outcome.whole_or("branch_rounds", 0);  // earlier versions have none, nor a finish
+  return FitOutcome{outcome.whole("evaluations"), rounds, outcome.whole_or("finish_from", rounds),
                     outcome.text("stopped_by")};
 }
 
@@ -123,9 +126,10 @@ std::string target_to_toml(const FitRecord& record) {
 std::string budget_to_toml(const FitRecord& record) {
   return fmt::format(
       "\n[budget]  # 0: no limit\nevaluations = {}\nseconds = {}\ntarget_fitness = {}\n"
-      "branch_rounds = {}  # after the search; -1: as many as time allows\nmax_stems = {}\nmax_leaves = {}\n",
+      "branch_rounds = {}  # after the search; -1: as many as time allows\nfinish_from = {}  # round; -1: "
+      "for the last 40 %\nmax_stems = {}\nmax_leaves = {}\n",
       record.budget.evaluations, toml_number(record.budget.seconds),
-      toml_number(record.budget.target_fitness), record.budget.branch_rounds,
+      toml_number(record.budget.target_fitness), record.budget.branch_rounds, record.budget.finish_from,
       toml_number(record.growth.max_stems), toml_number(record.growth.max_leaves));
 }
 
@@ -139,8 +143,10 @@ std::string search_to_toml(const FitRecord& record) {
   std::string free;
   for (const std::string& name : record.search.free) free += (free.empty() ? "" : ", ") + quote_toml(name);
   return fmt::format(
-      "\n[search]\nstart = {}\n{}free = [{}]  # none: the default set of the model\n\n[search.fixed]\n{}",
-      quote_toml(record.start), space_to_toml(record), free, numbers_to_toml(record.search.fixed));
+      "\n[search]\nstages = {}\nstart = {}\n{}free = [{}]  # none: the default set of the "
+      "model\n\n[search.fixed]\n{}",
+      quote_toml(to_string(record.stages)), quote_toml(record.start), space_to_toml(record), free,
+      numbers_to_toml(record.search.fixed));
 }
 
 std::string versions_to_toml(const FitRecord& record) {
@@ -198,8 +204,9 @@ std::string record_to_toml(const FitRecord& record, const std::optional<FitOutco
   text += "\n[optimizer_settings]\n" + numbers_to_toml(record.optimizer_settings);
   text += versions_to_toml(record);
   if (outcome)
-    text += fmt::format("\n[outcome]\nevaluations = {}\nbranch_rounds = {}\nstopped_by = {}\n",
-                        outcome->evaluations, outcome->branch_rounds, quote_toml(outcome->stopped_by));
+    text += fmt::format(
+        "\n[outcome]\nevaluations = {}\nbranch_rounds = {}\nfinish_from = {}\nstopped_by = {}\n",
+        outcome->evaluations, outcome->branch_rounds, outcome->finish_from, quote_toml(outcome->stopped_by));
   return text;
 }
 

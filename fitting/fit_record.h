@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fitting/fit_stages.h"
 #include "fitting/optimizer.h"
 #include "fitting/search_space.h"
 #include "image/read_target.h"
@@ -21,12 +22,16 @@ struct ViewRecord {
   View view;
 };
 
+/// Of FitBudget::finish_from: the finish gets the last share of what limits the refinement, rounds or time.
+inline constexpr long kLastShare = -1;
+
 /// Ends of a run; the first reached stops it. 0 means no limit; one of the first two must be set.
 struct FitBudget {
   long evaluations = 0;
   double seconds = 60;
   double target_fitness = 0;  ///< 1 - dissimilarity, in (0, 1]; 0: none
   long branch_rounds = 0;  ///< of the refinement that follows the search, at most; kWhileTimeLasts: no limit
+  long finish_from = kLastShare;  ///< round at which the finish begins; kLastShare: for the last 40 %
 };
 
 /// Rounds of refinement until the seconds are over.
@@ -47,6 +52,7 @@ struct FitRecord {
   std::string optimizer = "cma_es";
   OptimizerSettings optimizer_settings;
   FitBudget budget;
+  FitStages stages;
   GrowthBudget growth{1'500, 6'000};
   Seed seed = 1;
   std::string start = "auto";
@@ -64,6 +70,7 @@ struct FitRecord {
 struct FitOutcome {
   long evaluations = 0;    ///< of the search
   long branch_rounds = 0;  ///< of the refinement
+  long finish_from = 0;    ///< round at which its finish began, or would have begun
   std::string stopped_by;
 };
 

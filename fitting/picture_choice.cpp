@@ -46,6 +46,8 @@ std::vector<StartPoint> starts_for(const FitRecord& record, const FitTask& task)
   const double height_m = target_height_m(record);
   const Seed seed = task.plant_seeds.front();
   const SearchChoice choice = choice_for(record, task);
+  if (!record.stages.search && record.start != "auto")
+    return presets_as_written(task.model->table(), record.start);
   std::vector<StartPoint> starts =
       make_start_points(*task.model, record.start, choice, record.growth, height_m, seed);
   for (StartPoint& start : starts) {

@@ -18,7 +18,7 @@ std::string kind_of(const FitRecord& record, const FitTask& task);
 SearchChoice choice_for(const FitRecord& record, const FitTask& task);
 
 /// The record's starts, thinned, as tall as the target, and, unless the kind is "any", to the measure of the
-/// picture.
+/// picture. Presets that are named are taken as they are written where nothing is searched.
 std::vector<StartPoint> starts_for(const FitRecord& record, const FitTask& task);
 
 /// Of the time, where refinement follows for as long as it lasts: less where the branches are seen and

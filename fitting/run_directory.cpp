@@ -90,7 +90,9 @@ void write_archive(const fs::path& directory, const RunState& state) {
 
 std::optional<FitOutcome> outcome_of(const RunState& state) {
   if (!state.stopped_by) return std::nullopt;
-  return FitOutcome{state.evaluations, state.branches.rounds, *state.stopped_by};
+  const BranchRounds& branches = state.branches;
+  const long finish_from = branches.finish_from >= 0 ? branches.finish_from : branches.rounds;
+  return FitOutcome{state.evaluations, branches.rounds, finish_from, *state.stopped_by};
 }
 
 /// The first seed's masks of all views.

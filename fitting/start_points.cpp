@@ -25,22 +25,6 @@ std::vector<std::string> split_at_commas(const std::string& text) {
   return parts;
 }
 
-/// Presets by `start`, as they are written.
-std::vector<StartPoint> load_starts(const ParameterTable& table, const std::string& start) {
-  std::vector<StartPoint> points;
-  const bool automatic = start == "auto";
-  for (const std::string& name : automatic ? bundled_presets() : split_at_commas(start)) {
-    Preset preset = load_preset(name);
-    if (preset.model == table.model)
-      points.push_back({preset.name, std::move(preset.values)});
-    else if (!automatic)
-      throw_input_error("--start: got '{}' of model {}, expected a preset of {}", name, preset.model,
-                        table.model);
-  }
-  if (points.empty()) points.push_back({"defaults", table.defaults()});
-  return points;
-}
-
 /// The height of the grown plant above its base, or 0 where it does not grow.
 double grown_height_m(const Model& model, const GrowthSettings& settings, const ParameterValues& values,
                       Seed seed) {
@@ -59,6 +43,22 @@ void scale_to_height(const Model& model, const GrowthBudget& budget, double heig
 }
 
 }  // namespace
+
+std::vector<StartPoint> presets_as_written(const ParameterTable& table, const std::string& start) {
+  if (start == "defaults") return {{"defaults", table.defaults()}};
+  std::vector<StartPoint> points;
+  const bool automatic = start == "auto";
+  for (const std::string& name : automatic ? bundled_presets() : split_at_commas(start)) {
+    Preset preset = load_preset(name);
+    if (preset.model == table.model)
+      points.push_back({preset.name, std::move(preset.values), std::move(preset.overrides)});
+    else if (!automatic)
+      throw_input_error("--start: got '{}' of model {}, expected a preset of {}", name, preset.model,
+                        table.model);
+  }
+  if (points.empty()) points.push_back({"defaults", table.defaults()});
+  return points;
+}
 
 void scale_plant(const ParameterTable& table, double factor, ParameterValues& values) {
   for (std::size_t i = 0; i < table.rows.size(); ++i)
@@ -87,9 +87,7 @@ std::vector<StartPoint> make_start_points(const Model& model, const std::string&
                                           const SearchChoice& choice, const GrowthBudget& budget,
                                           double height_m, Seed plant_seed) {
   const ParameterTable& table = model.table();
-  std::vector<StartPoint> points = start == "defaults"
-                                       ? std::vector<StartPoint>{{"defaults", table.defaults()}}
-                                       : load_starts(table, start);
+  std::vector<StartPoint> points = presets_as_written(table, start);
   const std::size_t presets = points.size();
   for (std::size_t i = 0; i < presets; ++i) {
     prepare_start(model, budget, height_m, plant_seed, points[i].values);

@@ -7,6 +7,7 @@
 #include "core/parameter_table.h"
 #include "core/random.h"
 #include "fitting/search_space.h"
+#include "overrides/overrides.h"
 #include "plant/model.h"
 
 namespace espalier {
@@ -14,6 +15,7 @@ namespace espalier {
 struct StartPoint {
   std::string name;  ///< "quaking_aspen", "quaking_aspen without leaves"
   ParameterValues values;
+  Overrides overrides = {};  ///< of a preset as it is written
 };
 
 /// Multiplies all values in metres by `factor` (clamped to what is valid): a similar plant.
@@ -26,6 +28,10 @@ void prepare_start(const Model& model, const GrowthBudget& budget, double height
 
 bool has_leaves(const ParameterTable& table, const ParameterValues& values);
 void take_leaves(const ParameterTable& table, ParameterValues& values);
+
+/// Presets by `start`, as make_start_points takes it, as they are written: with their overrides, not scaled
+/// and not thinned. Throws InputError as it does.
+std::vector<StartPoint> presets_as_written(const ParameterTable& table, const std::string& start);
 
 /// The start points of `start`: "auto" (each bundled preset of the model), "defaults" (those of the
 /// table), or names and paths of presets with commas between. Each preset also without its leaves, if it

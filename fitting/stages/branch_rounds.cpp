@@ -26,6 +26,7 @@ constexpr std::array<RoundKind, 8> kCycle{
 nlohmann::ordered_json row_to_json(const RoundRow& row) {
   const MaskMetrics& m = row.metrics;
   return {
+      {"stage", row.stage},
       {"steps", row.steps},
       {"seconds", row.seconds},
       {"score", row.score},
@@ -36,6 +37,7 @@ nlohmann::ordered_json row_to_json(const RoundRow& row) {
 RoundRow row_from_json(const nlohmann::json& json) {
   const auto m = json.at("metrics").get<std::array<double, 7>>();
   RoundRow row;
+  row.stage = json.value("stage", "branches");  // earlier versions had no other
   row.steps = json.at("steps");
   row.seconds = json.at("seconds");
   row.score = json.at("score");
@@ -53,11 +55,13 @@ const Solution& BranchRounds::best() const {
 BranchRounds begin_branch_rounds(const FitTask& task, const std::vector<Solution>& starts,
                                  long search_evaluations) {
   BranchRounds state{.search_evaluations = search_evaluations};
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    state.lanes.push_back(starts[lane % starts.size()]);
-    state.lanes.back().score = score_of(task, state.lanes.back());
-  }
+  for (std::size_t lane = 0; lane < kLanes; ++lane) state.lanes.push_back(starts[lane % starts.size()]);
+  rescore(task, state);
   return state;
+}
+
+void rescore(const FitTask& task, BranchRounds& state) {
+  for (Solution& lane : state.lanes) lane.score = score_of(task, lane);
 }
 
 void refine_round(const FitTask& task, Seed seed, int threads, BranchRounds& state) {
@@ -79,6 +83,7 @@ void refine_round(const FitTask& task, Seed seed, int threads, BranchRounds& sta
 std::string branch_rounds_to_json(const BranchRounds& state, const std::string& model) {
   nlohmann::ordered_json json = {{"model", model},
                                  {"rounds", state.rounds},
+                                 {"finish_from", state.finish_from},
                                  {"steps", state.steps},
                                  {"search_evaluations", state.search_evaluations},
                                  {"search_limit", state.search_limit}};
@@ -95,6 +100,7 @@ BranchRounds branch_rounds_from_json(const std::string& text, const std::string&
   try {
     const nlohmann::json json = nlohmann::json::parse(text);
     BranchRounds state{.rounds = json.at("rounds"),
+                       .finish_from = json.value("finish_from", -1L),
                        .steps = json.at("steps"),
                        .search_evaluations = json.at("search_evaluations"),
                        .search_limit = json.at("search_limit")};

@@ -14,6 +14,7 @@ namespace espalier {
 
 /// The best tree after a round, for the trace.
 struct RoundRow {
+  std::string stage;  ///< "tracing", "branches" or "finish"
   long steps = 0;
   double seconds = 0, score = 1;
   MaskMetrics metrics;
@@ -22,6 +23,7 @@ struct RoundRow {
 struct BranchRounds {
   std::vector<Solution> lanes;
   long rounds = 0;
+  long finish_from = -1;          ///< round before which the finish began; -1: it has not
   long steps = 0;                 ///< branches grown, drawn and scored, over all lanes
   long search_evaluations = 0;    ///< of the search before them
   long search_limit = 0;          ///< that it was given: a search with another limit has another end
@@ -29,6 +31,9 @@ struct BranchRounds {
 
   const Solution& best() const;
 };
+
+/// The lanes as another task scores them: one that looks at its pictures in another way.
+void rescore(const FitTask& task, BranchRounds& state);
 
 /// Lanes that begin with the starts in turn.
 BranchRounds begin_branch_rounds(const FitTask& task, const std::vector<Solution>& starts,

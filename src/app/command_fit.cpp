@@ -28,7 +28,7 @@ struct FitArguments {
   FitRecord record;
   std::string image, out, resume, repeat;
   std::vector<std::string> views, free, fixed, settings;
-  std::string separation = "auto", tree_side = "auto";
+  std::string separation = "auto", tree_side = "auto", stages = to_string(FitStages{});
   double height_m = 0;
   int threads = 0;
   bool quiet = false, all_trees = false;
@@ -126,6 +126,7 @@ FitRecord new_record(const CLI::App& command, const FitArguments& arguments) {
   record.target.method = parse_separation_method(arguments.separation);
   record.target.side = parse_tree_side(arguments.tree_side);
   record.target.one_tree = !arguments.all_trees;
+  record.stages = parse_stages(arguments.stages);
   if (command.count("--height") > 0) record.height_m = arguments.height_m;
   set_budget(command, record.budget);
   // The bundled presets are starts for the parametric model alone.
@@ -158,7 +159,8 @@ FitRecord repeated_record(const std::string& directory) {
     record.budget = {.evaluations = outcome->evaluations,
                      .seconds = 0,
                      .target_fitness = 0,
-                     .branch_rounds = outcome->branch_rounds};
+                     .branch_rounds = outcome->branch_rounds,
+                     .finish_from = outcome->finish_from};
   return record;
 }
 
@@ -283,6 +285,11 @@ void add_run_options(CLI::App& command, FitArguments& arguments) {
   command.add_option("--branch-rounds", budget.branch_rounds,
                      "rounds of branch by branch refinement after the search (default: as time allows, 24 "
                      "without a limit of time; 0: none)");
+  command
+      .add_option("--stages", arguments.stages,
+                  "what to do after the starts are scored: names of search, tracing, branches and finish; a "
+                  "--start that is not searched from is taken as it is, with its overrides")
+      ->capture_default_str();
   command.add_option("--target-fitness", budget.target_fitness, "stop once the best is this good, 0..1");
   command.add_option(
       "--out", arguments.out,
@@ -318,7 +325,8 @@ void add_run_options(CLI::App& command, FitArguments& arguments) {
                             "--max-leaves",
                             "--kind",
                             "--train-to-target",
-                            "--branch-rounds"}) {
+                            "--branch-rounds",
+                            "--stages"}) {
     resume->excludes(command.get_option(other));
     if (std::string(other) != "--out") repeat->excludes(command.get_option(other));
   }

@@ -34,6 +34,8 @@ FitRecord full_record() {
   record.kind = "palm";
   record.train_to_target = true;
   record.budget.branch_rounds = 17;
+  record.budget.finish_from = 9;
+  record.stages = {true, false, true, true};
   record.height_m = 12.34;
   record.versions = {{"espalier", "0.1.0"}};
   return record;
@@ -72,7 +74,7 @@ std::string checking_error(const std::function<void(FitRecord&)>& spoil) {
 }
 
 TEST(FitRecord, ReadsBackWhatItWrote) {
-  const std::string text = record_to_toml(full_record(), FitOutcome{77, 5, "time"});
+  const std::string text = record_to_toml(full_record(), FitOutcome{77, 5, 3, "time"});
   const auto [record, outcome] = through_file(text);
   EXPECT_EQ(record_to_toml(record, outcome), text);
   EXPECT_EQ(record.seed, full_record().seed);
@@ -81,6 +83,8 @@ TEST(FitRecord, ReadsBackWhatItWrote) {
   ASSERT_TRUE(outcome);
   EXPECT_EQ(outcome->evaluations, 77);
   EXPECT_EQ(outcome->branch_rounds, 5);
+  EXPECT_EQ(outcome->finish_from, 3);
+  EXPECT_EQ(record.stages, full_record().stages);
 }
 
 RC_GTEST_PROP(FitRecord, NumbersKeepTheirBits, (double value)) {
@@ -100,8 +104,8 @@ TEST(FitRecord, NamesFileAndKeyOfWhatIsMissingOrWrong) {
 
 TEST(FitRecord, OfEarlierVersionsHasNoBranchRounds) {
   const std::string text = record_to_toml(full_record(), {});
-  const std::string older =
-      replaced(replaced(text, "branch_rounds = 17", ""), "train_to_target = true\n", "");
+  std::string older = replaced(replaced(text, "branch_rounds = 17", ""), "train_to_target = true\n", "");
+  older = replaced(replaced(older, "finish_from = 9", ""), "stages = \"search,branches,finish\"", "");
   const FitRecord record = through_file(older).record;
   EXPECT_EQ(record.budget.branch_rounds, 0);
   EXPECT_FALSE(record.train_to_target);

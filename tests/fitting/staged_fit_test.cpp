@@ -34,6 +34,10 @@ nlohmann::json summary_of(const fs::path& run) {
   return nlohmann::json::parse(read_text_file(run / "summary.json"));
 }
 
+nlohmann::json history_of(const fs::path& run) {
+  return nlohmann::json::parse(read_text_file(run / "branches.json"))["history"];
+}
+
 struct Regrown {
   Mask mask, target;
 };
@@ -93,6 +97,76 @@ TEST(StagedFit, ResumedItIsTheUnbrokenRun) {
              resumed = nlohmann::json::parse(read_text_file(broken / "branches.json"));
   EXPECT_EQ(whole["lanes"], resumed["lanes"]);
   EXPECT_EQ(whole["history"].size(), resumed["history"].size());
+}
+
+/// Five rounds, the last two of which look finer.
+FitRecord finished_record(long rounds) {
+  FitRecord record = staged_record(rounds);
+  record.budget.finish_from = 3;
+  return record;
+}
+
+TEST(StagedFit, ResumedInItsFinishItIsTheUnbrokenRun) {
+  const fs::path unbroken = new_run("finish_unbroken"), broken = new_run("finish_broken");
+  fit(finished_record(5), unbroken);
+  fit(finished_record(4), broken);
+  FitOptions options;
+  options.resume = true;
+  fit(finished_record(5), broken, options);
+  EXPECT_EQ(read_text_file(broken / "best.toml"), read_text_file(unbroken / "best.toml"));
+  EXPECT_EQ(history_of(broken).size(), history_of(unbroken).size());
+}
+
+TEST(StagedFit, RepeatedFromItsOutcomeItIsTheSameRun) {
+  const fs::path run = new_run("finish_first"), again = new_run("finish_again");
+  fit(staged_record(5), run);
+  const auto [record, outcome] = read_record(run / "run.toml");
+  ASSERT_TRUE(outcome);
+  EXPECT_EQ(outcome->finish_from, 3);
+  FitRecord repeated = record;
+  repeated.budget = {outcome->evaluations, 0, 0, outcome->branch_rounds, outcome->finish_from};
+  fit(repeated, again);
+  EXPECT_EQ(read_text_file(again / "best.toml"), read_text_file(run / "best.toml"));
+}
+
+TEST(StagedFit, NoStageEndsWorseThanItBegan) {
+  const fs::path run = new_run("stages_in_order");
+  FitRecord record = staged_record(8, "tr_crookedtree4");
+  record.target.size_px = 64;
+  fit(record, run);
+  const auto history = history_of(run);
+  std::vector<std::string> stages;
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    if (stages.empty() || stages.back() != history[i]["stage"])
+      stages.push_back(history[i]["stage"]);
+    else
+      EXPECT_LE(history[i]["score"], history[i - 1]["score"]) << i;
+  }
+  EXPECT_EQ(stages, (std::vector<std::string>{"tracing", "branches", "finish"}));
+}
+
+TEST(StagedFit, AStageAloneGoesOnFromTheTreeOfAnotherRun) {
+  const fs::path whole = new_run("without_finish");
+  FitRecord record = staged_record(3);
+  record.stages.finish = false;
+  const FitResult first = fit(record, whole);
+  record.stages = {.search = false, .tracing = false, .branches = true, .finish = false};
+  record.start = (whole / "best.toml").string();
+  const fs::path alone = new_run("branches_alone");
+  const FitResult second = fit(record, alone);
+  EXPECT_DOUBLE_EQ(1 - history_of(alone).front()["score"].get<double>(), first.fitness);
+  EXPECT_GE(second.fitness, first.fitness);
+  EXPECT_EQ(second.values, first.values);
+  EXPECT_EQ(second.dimension, 0u);
+}
+
+TEST(StagedFit, TheStartsAloneChangeNothing) {
+  FitRecord record = staged_record(3);
+  record.stages = parse_stages("starts");
+  const FitResult result = fit(record, new_run("starts_alone"));
+  EXPECT_EQ(result.stopped_by, "stages");
+  EXPECT_EQ(result.evaluations, 1);
+  EXPECT_EQ(result.branch_steps, 0);
 }
 
 TEST(StagedFit, ResumedWithALongerSearchItRefinesWhatThatFinds) {

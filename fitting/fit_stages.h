@@ -1,0 +1,24 @@
+// Which stages a fit goes through once its starts are scored (docs/branches.md): all, or some alone.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+struct FitStages {
+  bool search = true;    ///< of the parameters
+  bool tracing = true;   ///< of the branches of leafless trees
+  bool branches = true;  ///< their refinement, in masks of the search's size
+  bool finish = true;    ///< the same in masks of twice that size as well
+
+  bool refine() const { return tracing || branches || finish; }
+  bool operator==(const FitStages&) const = default;
+};
+
+/// "search,tracing,branches,finish", in this order.
+std::string to_string(const FitStages& stages);
+
+/// The inverse, in any order; "starts" alone: none. Throws InputError for other names.
+FitStages parse_stages(const std::string& text);
+
+}  // namespace espalier
