@@ -43,6 +43,7 @@ double seconds_since(Clock::time_point start) {
 FitTask task_of(FitRecord& record, const FitOptions& options) {
   FitTask task = make_task(record, options.model);
   task.make_renderer = options.make_renderer;
+  hold_trunk(record, task);
   return task;
 }
 
@@ -108,7 +109,8 @@ class FitRun : public Observer {
         scorer_(
             plant_scorer_, log_, evaluation_limit(record, directory, options), [this] { return seconds(); },
             [this](const ScoredBatch& batch) { on_scored(batch); }),
-        renderer_(task.make_renderer()) {}
+        renderer_(task.make_renderer()),
+        given_overrides_(task.overrides) {}
 
   FitResult run(std::vector<StartPoint> starts, const std::optional<SpeciesSpace>& species);
   bool stop_requested() override;
@@ -153,7 +155,7 @@ class FitRun : public Observer {
   LoggedScorer scorer_;
   std::unique_ptr<SilhouetteRenderer> renderer_;
   std::optional<FitTask> finer_task_;  ///< once the finish begins
-  Overrides given_overrides_;          ///< of a start that is not searched from
+  Overrides given_overrides_;          ///< of the tree that the refinement starts from
   std::size_t dimension_ = 0;
   std::string stage_ = "starts";
   double seconds_before_ = 0;  ///< of the run up to live_since_
@@ -292,7 +294,7 @@ void FitRun::search(const std::vector<StartPoint>& starts, const std::vector<dou
 /// Without a search.
 void FitRun::begin_from_best(const std::vector<StartPoint>& starts, const std::vector<double>& scores) {
   const auto best = static_cast<std::size_t>(std::min_element(scores.begin(), scores.end()) - scores.begin());
-  given_overrides_ = starts[best].overrides;
+  if (!starts[best].overrides.empty()) given_overrides_ = starts[best].overrides;
   if (!state_.stopped_by) state_.stopped_by = "stages";
 }
 

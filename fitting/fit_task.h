@@ -7,7 +7,7 @@
 
 #include "core/random.h"
 #include "image/compare.h"
-#include "overrides/overrides.h"
+#include "overrides/change_graph.h"
 #include "plant/model.h"
 #include "render/camera.h"
 #include "render/silhouette.h"
@@ -34,15 +34,23 @@ struct FitTask {
   std::vector<Seed> plant_seeds;
   std::vector<TargetView> views;
   MaskObjective objective;
-  std::shared_ptr<const Volume> envelope;  ///< what growth.prune_to points to, if the tree is trained
+  std::shared_ptr<const Volume> envelope;      ///< what growth.prune_to points to, if the tree is trained
+  Overrides overrides;                         ///< of every candidate of the search
+  std::shared_ptr<const ChangeGraph> changes;  ///< the same, which growth.changes points to
   RendererFactory make_renderer = make_scanline_renderer;
   std::vector<std::string> warnings;  ///< what its pictures leave to be desired, a line each
 };
 
-/// The silhouettes of one candidate: seed by seed, and for each seed view by view. Empty masks where
-/// the growth budget refuses the candidate.
+/// The silhouettes of one candidate with these overrides instead of the task's: seed by seed, and for each
+/// seed view by view. Empty masks where the growth budget refuses the candidate.
 std::vector<Mask> draw_candidate(const FitTask& task, const ParameterValues& values,
-                                 SilhouetteRenderer& renderer, const Overrides& overrides = {});
+                                 SilhouetteRenderer& renderer, const Overrides& overrides);
+
+/// Of a candidate of the search.
+inline std::vector<Mask> draw_candidate(const FitTask& task, const ParameterValues& values,
+                                        SilhouetteRenderer& renderer) {
+  return draw_candidate(task, values, renderer, task.overrides);
+}
 
 /// All metrics, averaged over masks in the order of draw_candidate.
 MaskMetrics mean_metrics(const FitTask& task, const std::vector<Mask>& masks);

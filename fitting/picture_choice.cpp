@@ -2,6 +2,7 @@
 
 #include "fitting/record_task.h"
 #include "fitting/stages/measured_start.h"
+#include "fitting/stages/palm_trunk.h"
 #include "fitting/stages/picture_reading.h"
 
 namespace espalier {
@@ -15,8 +16,28 @@ void fix(const FitTask& task, const std::string& name, double value, SearchChoic
   if (choice.free.empty() && task.model->table().find(name)) choice.fixed.insert({name, value});
 }
 
+constexpr const char* kPresetsWithFronds = "palm,fan_palm";
+
 /// Whether the picture is to say anything.
 bool is_read(const FitRecord& record) { return record.kind != "any"; }
+
+/// The trunk that a palm is held to; none where the user says how to search, or the model has no such trunks.
+std::optional<TrunkLine> held_trunk(const FitRecord& record, const FitTask& task) {
+  const bool is_left_to_us = record.start == "auto" && record.search.free.empty() && record.fit_seeds == 1;
+  if (!is_left_to_us || kind_of(record, task) != kind_name(TreeKind::palm) ||
+      task.model->table().model != FitRecord{}.model)
+    return std::nullopt;
+  return read_trunk_line(task.views.front().target.mask());
+}
+
+/// Fronds stay as long as they are while the trunk gets another length.
+void fix_trunk(const ParameterTable& table, const SearchChoice& choice, ParameterValues& values) {
+  const std::size_t scale = table.index_of("g_scale"), frond = table.index_of("length[1]");
+  const double before_m = values[scale];
+  apply_fixed(table, choice, values);
+  values[frond] =
+      std::clamp(values[frond] * before_m / values[scale], table.rows[frond].lower, table.rows[frond].upper);
+}
 
 void measure(const FitRecord& record, const FitTask& task, ParameterValues& values) {
   const double height_m = target_height_m(record);
@@ -39,6 +60,9 @@ SearchChoice choice_for(const FitRecord& record, const FitTask& task) {
   const PictureReading reading = reading_of(task);
   if (record.kind == "auto" && reading.trunks == 1) fix(task, "branches[0]", 1, choice);
   choice.ranges = measured_ranges(reading, kind_by_name(kind), target_height_m(record));
+  if (const auto trunk = held_trunk(record, task))
+    for (const auto& [name, value] : palm_parameters(*trunk, task.views.front().metres_per_px))
+      fix(task, name, value, choice);
   return choice;
 }
 
@@ -48,14 +72,24 @@ std::vector<StartPoint> starts_for(const FitRecord& record, const FitTask& task)
   const SearchChoice choice = choice_for(record, task);
   if (!record.stages.search && record.start != "auto")
     return presets_as_written(task.model->table(), record.start);
-  std::vector<StartPoint> starts =
-      make_start_points(*task.model, record.start, choice, record.growth, height_m, seed);
+  const bool has_fronds = held_trunk(record, task).has_value();
+  std::vector<StartPoint> starts = make_start_points(
+      *task.model, has_fronds ? kPresetsWithFronds : record.start, choice, record.growth, height_m, seed);
   for (StartPoint& start : starts) {
     if (is_read(record) && record.start == "auto") measure(record, task, start.values);
     keep_in_ranges(task.model->table(), choice, start.values);
+    if (has_fronds) fix_trunk(task.model->table(), choice, start.values);
     apply_fixed(task.model->table(), choice, start.values);
   }
   return starts;
+}
+
+void hold_trunk(const FitRecord& record, FitTask& task) {
+  const auto trunk = held_trunk(record, task);
+  if (!trunk) return;
+  task.overrides = lay_palm_trunk(task, *trunk, starts_for(record, task).front().values);
+  task.changes = std::make_shared<const ChangeGraph>(task.overrides);
+  task.growth.changes = task.changes.get();
 }
 
 double search_share(const std::string& kind) { return kind == "leafless" ? 0.15 : 0.4; }

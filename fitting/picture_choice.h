@@ -17,9 +17,14 @@ std::string kind_of(const FitRecord& record, const FitTask& task);
 /// ranges (fitting/stages/measured_start.h), one trunk where the picture shows one foot.
 SearchChoice choice_for(const FitRecord& record, const FitTask& task);
 
-/// The record's starts, thinned, as tall as the target, and, unless the kind is "any", to the measure of the
-/// picture. Presets that are named are taken as they are written where nothing is searched.
+/// The record's starts, of a palm those with fronds, thinned, as tall as the target, and, unless the kind is
+/// "any", to the measure of the picture. Presets that are named are taken as they are written where nothing
+/// is searched.
 std::vector<StartPoint> starts_for(const FitRecord& record, const FitTask& task);
+
+/// Gives all candidates of a palm a trunk that lies on the picture's (fitting/stages/palm_trunk.h): the
+/// choice fixes its parameters, the task gets its overrides. Other kinds of trees are left as they are.
+void hold_trunk(const FitRecord& record, FitTask& task);
 
 /// Of the time, where refinement follows for as long as it lasts: less where the branches are seen and
 /// traced.

@@ -64,6 +64,7 @@ std::string archived_to_toml(const RunState& state, std::size_t index) {
                   1 - solution.score, distance_between(solution, state.archive->solutions().front()));
   preset.model = state.record.model;
   preset.values = solution.values;
+  preset.overrides = state.task.overrides;
   preset.grown_into = grown_into(state);
   return preset_to_toml(preset);
 }
@@ -153,8 +154,7 @@ nlohmann::ordered_json certainty_to_json(const CertaintyReport& report) {
 }  // namespace
 
 const Overrides& best_overrides(const RunState& state) {
-  static const Overrides kNone;
-  return state.branches.lanes.empty() ? kNone : state.branches.best().overrides;
+  return state.branches.lanes.empty() ? state.task.overrides : state.branches.best().overrides;
 }
 
 std::optional<BranchRounds> read_branch_rounds(const fs::path& directory) {

@@ -54,6 +54,15 @@ std::map<std::string, SearchRange> measured_ranges(const PictureReading& reading
                         : SearchRange{0.005, 0.03};
   if (shows_trunk(reading)) ranges["flare"] = {0, std::max(0.1, seen_flare(reading))};
   ranges["blossom_rate"] = {0, 0};  // a silhouette does not show them
+  if (kind == TreeKind::palm) {  // thin ribs, with leaflets that are long and narrow
+    ranges["base_size[0]"] = {0.75, 0.98};
+    ranges["branches[1]"] = {10, 60};
+    ranges["length[1]"] = {0.08, 0.9};
+    ranges["radius_mod[1]"] = {0.05, 0.4};
+    ranges["leaf_scale"] = {0.015 * height_m, 0.06 * height_m};
+    ranges["leaf_scale_x"] = {0.04, 0.16};
+    ranges["leaf_blos_num"] = {60, 300};
+  }
   if (kind == TreeKind::leafy) {
     constexpr double kLongestLeaf = 0.035;  // of the height: longer ones fill crowns as blobs
     ranges["leaf_scale"] = {0.003 * height_m, kLongestLeaf * height_m};
