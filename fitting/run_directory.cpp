@@ -128,7 +128,8 @@ nlohmann::ordered_json overlaps_to_json(const MaskMetrics& metrics) {
   return {{"iou", metrics.iou},
           {"tolerant_iou", metrics.tolerant_iou},
           {"outline_iou", metrics.outline_iou},
-          {"gap_iou", metrics.gap_iou}};
+          {"gap_iou", metrics.gap_iou},
+          {"truncated_distance", metrics.truncated_distance}};
 }
 
 nlohmann::ordered_json archive_to_json(const SolutionArchive& archive) {

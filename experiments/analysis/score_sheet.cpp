@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "experiments/analysis/tree_picture.h"
 #include "experiments/runner/experiment_directory.h"
 #include "experiments/runner/plan.h"
@@ -78,6 +79,17 @@ void add_stages(const FinishedFit& fit, const fs::path& run, AllScores& all) {
   }
 }
 
+/// Those of the tree in larger masks than the search's, where the run looked at such.
+void add_full_size(const FinishedFit& fit, const fs::path& run, AllScores& all) {
+  const auto summary = nlohmann::json::parse(read_file(run / "summary.json"), nullptr, false);
+  if (summary.is_discarded() || !summary.contains("full_size"))
+    return;  // of earlier versions, or without a refinement
+  const auto& seen = summary["full_size"];
+  Metrics metrics{};
+  for (std::size_t i = 0; i < kMetrics.size(); ++i) metrics[i] = seen.value(kMetrics[i], 0.0);
+  all.add(fit.target, {fit.method, fmt::format("at {} px", seen.value("size_px", 0))}, metrics);
+}
+
 /// The closed and filled outline of the target against the target.
 Metrics outline_alone(const fs::path& run) {
   const TargetOptions written{.method = SeparationMethod::luminance, .side = TreeSide::light};
@@ -96,6 +108,7 @@ AllScores read_scores(const std::vector<FinishedFit>& fits, const fs::path& dire
       all.add(fit.target, {kNoTree, ""}, outline_alone(run));
     }
     add_stages(fit, run, all);
+    add_full_size(fit, run, all);
   }
   return all;
 }

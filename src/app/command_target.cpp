@@ -7,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/target_options.h"
+#include "fitting/stages/picture_reading.h"
 #include "image/picture.h"
 #include "image/read_target.h"
 
@@ -19,6 +20,16 @@ struct TargetPaths {
   bool all_trees = false;
 };
 
+/// What a fit reads off the mask before it grows anything.
+std::string reading_in_words(const PictureReading& reading) {
+  return fmt::format(
+      "a {} tree: trunk {:.3f} wide, foot {:.3f}, crown {:.2f} wide from {:.2f} up (shares of its height); "
+      "{:.0f} % of its outline covered; {} at the foot",
+      kind_name(reading.kind), reading.trunk_width, reading.foot_width, reading.crown_width,
+      reading.crown_base, 100 * reading.cover,
+      reading.trunks == 1 ? "1 trunk" : fmt::format("{} trunks", reading.trunks));
+}
+
 void run_target(const TargetPaths& paths, const TargetOptions& options) {
   const TargetPicture target = read_target(paths.image, options);
   write_mask_png(paths.output, target.mask);
@@ -28,6 +39,7 @@ void run_target(const TargetPaths& paths, const TargetOptions& options) {
     fmt::print(stderr, "espalier: warning: {}: {}\n", paths.image, fault);
   fmt::print("{}: {}×{} px, the tree is {:.1f} px tall and covers {:.1f} %\n", paths.output, options.size_px,
              options.size_px, target.tree_height_px, 100 * share);
+  fmt::print("{}: {}\n", paths.output, reading_in_words(read_picture(target.mask)));
 }
 
 }  // namespace
