@@ -228,17 +228,22 @@ bool Reshaper::is_borne(std::uint32_t organ) const {
 
 void Reshaper::choose_leaves(const PlantPart* only_part) {
   chosen_leaves_.clear();
-  const auto add = [&](std::uint32_t organ) {
-    if (!is_borne(organ)) return;
+  const std::vector<std::uint32_t>& organs = base_.joints.organ_of_leaf;
+  if (!only_part || only_part->path.empty()) {
+    for (std::uint32_t leaf = 0; leaf < organs.size(); ++leaf)
+      if (is_borne(organs[leaf])) chosen_leaves_.push_back(leaf);
+    return;
+  }
+  for (const std::uint32_t stem : chosen_) choose_leaves_on(static_cast<std::int32_t>(stem));
+  if (only_part->path == BranchPath{0}) choose_leaves_on(-1);
+}
+
+void Reshaper::choose_leaves_on(std::int32_t stem) {
+  for (const std::uint32_t organ : organs_on_.of(stem)) {
+    if (!is_borne(organ)) continue;
     const auto leaves = leaves_of_.of(static_cast<std::int32_t>(organ));
     chosen_leaves_.insert(chosen_leaves_.end(), leaves.begin(), leaves.end());
-  };
-  for (const std::uint32_t stem : chosen_)
-    for (const std::uint32_t organ : organs_on_.of(static_cast<std::int32_t>(stem))) add(organ);
-  const bool is_whole = !only_part || only_part->path.empty();
-  if (is_whole || only_part->path == BranchPath{0})
-    for (const std::uint32_t organ : organs_on_.of(-1)) add(organ);
-  std::sort(chosen_leaves_.begin(), chosen_leaves_.end());
+  }
 }
 
 void Reshaper::write_stem(std::uint32_t stem, Plant& shaped) {

@@ -29,9 +29,9 @@ class Reshaper {
   explicit Reshaper(JointedPlant plant);
 
   /// The plant with these changes (null: none), or the part of it alone, in its place, into `shaped`, whose
-  /// memory is reused. Stems and leaves keep their order; what neither changes itself nor stands on what does
-  /// keeps its bits. Leaves that hang on no stem go with trunk 0 where a part is asked for.
-  /// Throws InputError where the changes make the plant too large for floats.
+  /// memory is reused. Stems keep their order, leaves of a whole plant too; what neither changes itself nor
+  /// stands on what does keeps its bits. Leaves that hang on no stem go with trunk 0 where a part is asked
+  /// for. Throws InputError where the changes make the plant too large for floats.
   void reshape(const ChangeGraph* changes, const PlantPart* only_part, Plant& shaped);
 
  private:
@@ -70,6 +70,7 @@ class Reshaper {
 
   bool is_borne(std::uint32_t organ) const;
   void choose_leaves(const PlantPart* only_part);
+  void choose_leaves_on(std::int32_t stem);
   void write_stem(std::uint32_t stem, Plant& shaped);
   void write_leaf(std::uint32_t leaf, Plant& shaped) const;
 
