@@ -69,7 +69,7 @@ FitTask make_task(FitRecord& record, const Model* model) {
   task.objective = parse_objective(record.objective);
   for (int i = 0; i < record.fit_seeds; ++i) task.plant_seeds.push_back(record.seed + static_cast<Seed>(i));
   read_views(record, task);
-  if (record.train_to_target && !task.model->has_branch_paths())
+  if (record.train_to_target && !task.model->can_train())
     throw_input_error(
         "--train-to-target: got model '{}', which cannot grow into a picture, expected weber_penn",
         record.model);

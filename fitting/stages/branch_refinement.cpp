@@ -164,7 +164,7 @@ class Refinement {
       for (std::size_t i = 0; i < child.at.size(); ++i) child.at[i] = clamped(i, 0.5 * draws_.normal());
       return child;
     }
-    if (draws_.chance(0.08)) {
+    if (draws_.chance(0.08) && task_.model->can_change(Quantity::seed)) {
       child.seed = 1 + draws_.below(1'000'000);
       return child;
     }

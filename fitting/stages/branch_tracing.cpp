@@ -18,12 +18,14 @@ constexpr double kMostOutward = 0.7;  ///< depth over length in the picture, of 
 constexpr std::size_t kBuds = 4;      ///< on each branch: where refinement may add what was not traced
 
 /// A tree whose branches are all alike and none at random, so that overrides say what each is. This function
-/// knows the names of the Weber–Penn model's parameters.
-void make_plain(const ParameterTable& table, const std::vector<MedialAxis>& axes, double metres_per_px,
+/// knows the names of the Weber–Penn model's parameters; false for a model that lacks one of them.
+bool make_plain(const ParameterTable& table, const std::vector<MedialAxis>& axes, double metres_per_px,
                 ParameterValues& values) {
+  bool has_all = true;
   const auto set = [&](const std::string& name, double value) {
-    if (const auto row = table.find(name))
-      values[*row] = std::clamp(value, table.rows[*row].lower, table.rows[*row].upper);
+    const auto row = table.find(name);
+    has_all = has_all && row;
+    if (row) values[*row] = std::clamp(value, table.rows[*row].lower, table.rows[*row].upper);
   };
   set("levels", kDeepest);
   set("g_scale", axes[0].length_px * metres_per_px);
@@ -45,6 +47,7 @@ void make_plain(const ParameterTable& table, const std::vector<MedialAxis>& axes
   set("down_angle[0]", 0);
   for (const char* name : {"branches[1]", "branches[2]", "branches[3]"})
     set(name, 2);  // overrides count them
+  return has_all;
 }
 
 class Tracer {
@@ -105,13 +108,13 @@ class Tracer {
 }  // namespace
 
 Solution trace_branches(const FitTask& task, const TracingSettings& settings, const Solution& start) {
-  if (!task.model->has_branch_paths()) return start;
+  if (!task.model->has_branch_paths() || !task.model->can_change(Quantity::seed)) return start;
   const Mask& mask = task.views[0].target.mask();
   const auto shortest_px = static_cast<float>(settings.shortest * mask.height_px());
   const std::vector<MedialAxis> axes = medial_axes(mask, shortest_px);
   if (axes.empty()) return start;
   Solution traced{start.values, start.plant_seed, {}, 1};
-  make_plain(task.model->table(), axes, task.views[0].metres_per_px, traced.values);
+  if (!make_plain(task.model->table(), axes, task.views[0].metres_per_px, traced.values)) return start;
   Tracer(task, settings, axes, traced).run();
   traced.score = score_of(task, traced);
   return traced;

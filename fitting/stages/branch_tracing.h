@@ -14,8 +14,8 @@ struct TracingSettings {
   RandomKey key;           ///< of the search's draws
 };
 
-/// The traced tree, with `start`'s leaves and bark, and its score. `start` itself where the model's branches
-/// have no paths or the mask no axes. Only the first view is traced.
+/// The traced tree, with `start`'s leaves and bark, and its score. `start` itself where the model has
+/// not the parameters of a plain tree (Weber–Penn), or the mask no axes. Only the first view is traced.
 Solution trace_branches(const FitTask& task, const TracingSettings& settings, const Solution& start);
 
 }  // namespace espalier

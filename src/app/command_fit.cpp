@@ -274,7 +274,8 @@ void add_search_options(CLI::App& command, FitArguments& arguments) {
                   "of tree: auto (read off the picture), any, leafy, leafless (never any leaves), palm")
       ->capture_default_str();
   command.add_flag("--train-to-target", record.train_to_target,
-                   "keep the tree inside of the picture's outline: stems are shortened, bent, or cut");
+                   "keep the tree inside of the picture's outline: stems are shortened, bent, or cut (not "
+                   "for L-systems)");
   command.add_option("--seed", record.seed, "of the search, and of the first tree")->capture_default_str();
 }
 

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "lsystem/polygon.h"
-#include "plant/plant.h"
+#include "plant/joints.h"
 
 namespace espalier::lsystem {
 
 struct NamedSurface {
   std::string name;
   std::vector<Triangle> triangles;
-  std::shared_ptr<const Plant> plant;  ///< instead of triangles: in units, as its turtle drew it
+  std::shared_ptr<const JointedPlant> plant;  ///< instead of triangles: in units, as its turtle drew it
 };
 
 struct Appearance {

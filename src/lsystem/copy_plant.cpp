@@ -27,7 +27,7 @@ void copy_leaf(const Leaves& from, std::size_t i, const CopyFrame& frame, Leaves
 }
 
 void copy_as_triangles(const Leaves& from, std::size_t i, const LeafOutline& outline, const CopyFrame& frame,
-                       std::vector<ColoredTriangle>& triangles) {
+                       std::uint32_t organ, std::vector<ColoredTriangle>& triangles) {
   const Vec3 x = from.side[i] * from.width_m[i], y = from.axis[i] * from.length_m[i],
              z = cross(from.side[i], from.axis[i]) * from.length_m[i];
   const auto corner = [&](std::size_t vertex) {
@@ -35,16 +35,20 @@ void copy_as_triangles(const Leaves& from, std::size_t i, const LeafOutline& out
     return frame.point_m(from.position_m[i] + x * v.x + y * v.y + z * v.z);
   };
   for (const auto& [a, b, c] : outline.triangles)
-    triangles.push_back({{corner(a), corner(b), corner(c)}, color_of(from.color, i)});
+    triangles.push_back({{corner(a), corner(b), corner(c)}, color_of(from.color, i), organ});
 }
 
 }  // namespace
 
-void copy_stems(const Plant& plant, const CopyFrame& frame, std::int32_t parent, StemSplines& stems) {
+std::vector<std::int32_t> copy_stems(const JointedPlant& from, const CopyFrame& frame, std::int32_t parent,
+                                     StemSplines& stems) {
+  const Plant& plant = from.plant;
   std::vector<std::int32_t> copies;
   for (std::size_t s = 0; s < plant.stems.size(); ++s) {
     const std::int32_t own_parent = plant.stems.parent[s];
-    copies.push_back(stems.add_stem(own_parent < 0 ? parent : copies[static_cast<std::size_t>(own_parent)]));
+    copies.push_back(own_parent < 0 ? stems.add_stem(parent)
+                                    : stems.add_stem(copies[static_cast<std::size_t>(own_parent)],
+                                                     from.joints.stem_place[s]));
     for (std::uint32_t k = plant.stems.first_knot[s]; k + 1 < plant.stems.first_knot[s + 1]; ++k) {
       const float radius_m = width_factor(frame) * plant.knots.radius_m[k],
                   next_radius_m = width_factor(frame) * plant.knots.radius_m[k + 1];
@@ -53,16 +57,30 @@ void copy_stems(const Plant& plant, const CopyFrame& frame, std::int32_t parent,
       stems.end_segment(copies.back(), frame.point_m(plant.knots.point_m[k + 1]), next_radius_m);
     }
   }
+  return copies;
 }
 
-void copy_leaves(const Plant& plant, const CopyFrame& frame, int leaf_shape, Leaves& leaves,
+void copy_organs(const JointedPlant& from, const std::vector<std::int32_t>& copies, const Organ& base,
+                 std::vector<Organ>& organs) {
+  for (const Organ& organ : from.joints.organs)
+    organs.push_back(organ.stem < 0 ? base
+                                    : Organ{copies[static_cast<std::size_t>(organ.stem)], organ.place});
+}
+
+void copy_leaves(const JointedPlant& from, const CopyFrame& frame, int leaf_shape, std::uint32_t first_organ,
+                 Leaves& leaves, std::vector<std::uint32_t>& organ_of_leaf,
                  std::vector<ColoredTriangle>& triangles) {
+  const Plant& plant = from.plant;
   const LeafOutline& outline = leaf_outline(plant.leaf_shape);
-  for (std::size_t i = 0; i < plant.leaves.size(); ++i)
-    if (plant.leaves.kind[i] == LeafKind::blossom || plant.leaf_shape == leaf_shape)
-      copy_leaf(plant.leaves, i, frame, leaves);
-    else
-      copy_as_triangles(plant.leaves, i, outline, frame, triangles);
+  for (std::size_t i = 0; i < plant.leaves.size(); ++i) {
+    const std::uint32_t organ = first_organ + from.joints.organ_of_leaf[i];
+    if (plant.leaves.kind[i] != LeafKind::blossom && plant.leaf_shape != leaf_shape) {
+      copy_as_triangles(plant.leaves, i, outline, frame, organ, triangles);
+      continue;
+    }
+    copy_leaf(plant.leaves, i, frame, leaves);
+    organ_of_leaf.push_back(organ);
+  }
 }
 
 }  // namespace espalier::lsystem

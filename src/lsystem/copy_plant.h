@@ -4,7 +4,7 @@
 
 #include "lsystem/stem_splines.h"
 #include "lsystem/triangle_leaves.h"
-#include "plant/plant.h"
+#include "plant/joints.h"
 
 namespace espalier::lsystem {
 
@@ -16,12 +16,18 @@ struct CopyFrame {
   Vec3 point_m(Vec3 v) const { return origin_m + direction_m(v); }
 };
 
-/// Adds the plant's stems; its trunks spring from `parent` (-1: they are trunks).
-void copy_stems(const Plant& plant, const CopyFrame& frame, std::int32_t parent, StemSplines& stems);
+/// Adds the plant's stems; its trunks spring from `parent` (-1: they are trunks). Returns what each became.
+std::vector<std::int32_t> copy_stems(const JointedPlant& from, const CopyFrame& frame, std::int32_t parent,
+                                     StemSplines& stems);
+
+/// Adds the plant's organs, on the copies of their stems; those on none hang where `base` does.
+void copy_organs(const JointedPlant& from, const std::vector<std::int32_t>& copies, const Organ& base,
+                 std::vector<Organ>& organs);
 
 /// Adds the plant's leaves to those of a plant whose leaves have the shape `leaf_shape`: as leaves where that
-/// is theirs, else as triangles.
-void copy_leaves(const Plant& plant, const CopyFrame& frame, int leaf_shape, Leaves& leaves,
+/// is theirs, else as triangles. Their organs are numbered from `first_organ`.
+void copy_leaves(const JointedPlant& from, const CopyFrame& frame, int leaf_shape, std::uint32_t first_organ,
+                 Leaves& leaves, std::vector<std::uint32_t>& organ_of_leaf,
                  std::vector<ColoredTriangle>& triangles);
 
 }  // namespace espalier::lsystem

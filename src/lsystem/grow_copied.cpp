@@ -37,21 +37,22 @@ Planting planting_of(const ParameterTable& table, const std::vector<NamedNumber>
   return planting;
 }
 
-std::shared_ptr<const Plant> grow(const Grammar& grammar, const Planting& planting) {
+std::shared_ptr<const JointedPlant> grow(const Grammar& grammar, const Planting& planting) {
   Derivation derivation(grammar, kCopiedLimits);
   derivation.start(planting.values, planting.seed);
   derivation.run(derivation.settings().steps);
   Settings settings = derivation.settings();
   settings.unit_m = 1;
-  auto plant = std::make_shared<Plant>();
-  build_plant(derivation.interpreted(), derivation.alphabet(), settings, *plant);
-  return plant;
+  auto grown = std::make_shared<JointedPlant>();
+  build_plant(derivation.interpreted(), derivation.alphabet(), settings, grown->plant, &grown->joints);
+  return grown;
 }
 
 }  // namespace
 
-std::shared_ptr<const Plant> grow_copied(const std::string& file, const std::vector<NamedNumber>& numbers,
-                                         const Position& position) {
+std::shared_ptr<const JointedPlant> grow_copied(const std::string& file,
+                                                const std::vector<NamedNumber>& numbers,
+                                                const Position& position) {
   std::optional<Grammar> grammar;
   try {
     if (!file.ends_with(".lsys"))

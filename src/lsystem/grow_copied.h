@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lsystem/source.h"
-#include "plant/plant.h"
+#include "plant/joints.h"
 
 namespace espalier::lsystem {
 
@@ -20,7 +20,8 @@ struct NamedNumber {
 /// parameters and the default ones, and the seed among them (1 where there is none). One unit is one metre.
 /// Throws InputError at `position` where the file cannot be read or grown, at a number's where there is no
 /// such parameter or its value is out of bounds.
-std::shared_ptr<const Plant> grow_copied(const std::string& file, const std::vector<NamedNumber>& numbers,
-                                         const Position& position);
+std::shared_ptr<const JointedPlant> grow_copied(const std::string& file,
+                                                const std::vector<NamedNumber>& numbers,
+                                                const Position& position);
 
 }  // namespace espalier::lsystem

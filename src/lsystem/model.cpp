@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "lsystem/bundled.h"
 #include "lsystem/derivation.h"
 #include "lsystem/plant_builder.h"
+#include "overrides/reshape.h"
 
 namespace espalier::lsystem {
 
@@ -33,6 +35,32 @@ Limits limits_of(const GrowthBudget& budget) {
   return limits;
 }
 
+/// Whether plants are asked for that differ from what the L-system grows.
+bool is_reshaped(const GrowthSettings& growth) {
+  return growth.only_part || (growth.changes && !growth.changes->empty());
+}
+
+/// A plant as the L-system grows it, kept for its next shape: branches are changed thousands of times on one.
+struct GrownPlant {
+  ParameterValues values;
+  Seed seed = 0;
+  GrowthBudget budget;
+  GrowthResult result;
+  Reshaper reshaper;
+
+  bool is_of(std::span<const double> other_values, Seed other_seed, const GrowthBudget& other) const {
+    return seed == other_seed && budget.max_stems == other.max_stems &&
+           budget.max_leaves == other.max_leaves && std::ranges::equal(values, other_values);
+  }
+};
+
+/// What one thread at a time works with.
+struct Worker {
+  explicit Worker(const Grammar& grammar) : derivation(grammar) {}
+  Derivation derivation;
+  std::optional<GrownPlant> grown;  ///< without a volume to prune to
+};
+
 class LsystemModel : public Model {
  public:
   explicit LsystemModel(const std::string& name) : grammar_(load_grammar(name)), table_(grammar_.parameters) {
@@ -47,30 +75,60 @@ class LsystemModel : public Model {
   /// Nothing is known before it is derived; the budget is kept while it is.
   GrowthEstimate estimate(std::span<const double>) const override { return {1, 0}; }
 
+  bool has_branch_paths() const override { return true; }
+  /// Overrides act on what has grown: too late for other random numbers.
+  bool can_change(Quantity quantity) const override { return quantity != Quantity::seed; }
+
   GrowthResult generate(std::span<const double> values, Seed seed, const GrowthSettings& growth,
                         Plant& plant) const override {
-    std::unique_ptr<Derivation> derivation = take_idle();
+    std::unique_ptr<Worker> worker = take_idle(values, seed, growth);
     GrowthResult result;
     try {
-      derivation->set_limits(limits_of(growth.budget));
-      prune(*derivation, growth.prune_to, values.back());
-      derivation->start(values.first(grammar_.parameters.rows.size()), seed);
-      derivation->run(derivation->settings().steps);
-      Settings settings = derivation->settings();
-      settings.unit_m = values.back();
-      build_plant(derivation->interpreted(), derivation->alphabet(), settings, plant);
-      const double factor = std::max(static_cast<double>(plant.stems.size()) / growth.budget.max_stems,
-                                     static_cast<double>(plant.leaves.size()) / growth.budget.max_leaves);
-      result = {factor <= 1, factor};
+      if (is_reshaped(growth))
+        result = grow_reshaped(*worker, values, seed, growth, plant);
+      else
+        result = grow(worker->derivation, values, seed, growth, plant, nullptr);
     } catch (const TooManyModules&) {
       result = {false, 2};
     }
     const std::lock_guard lock(mutex_);
-    idle_.push_back(std::move(derivation));
+    idle_.push_back(std::move(worker));
     return result;
   }
 
  private:
+  GrowthResult grow(Derivation& derivation, std::span<const double> values, Seed seed,
+                    const GrowthSettings& growth, Plant& plant, PlantJoints* joints) const {
+    derivation.set_limits(limits_of(growth.budget));
+    prune(derivation, growth.prune_to, values.back());
+    derivation.start(values.first(grammar_.parameters.rows.size()), seed);
+    derivation.run(derivation.settings().steps);
+    Settings settings = derivation.settings();
+    settings.unit_m = values.back();
+    build_plant(derivation.interpreted(), derivation.alphabet(), settings, plant, joints);
+    const double factor = std::max(static_cast<double>(plant.stems.size()) / growth.budget.max_stems,
+                                   static_cast<double>(plant.leaves.size()) / growth.budget.max_leaves);
+    return {factor <= 1, factor};
+  }
+
+  /// A volume may be another one at the same address: plants in a volume are not kept.
+  GrowthResult grow_reshaped(Worker& worker, std::span<const double> values, Seed seed,
+                             const GrowthSettings& growth, Plant& plant) const {
+    std::optional<GrownPlant>& grown = worker.grown;
+    if (growth.prune_to || !grown || !grown->is_of(values, seed, growth.budget)) {
+      grown.reset();
+      JointedPlant base;
+      const GrowthResult result = grow(worker.derivation, values, seed, growth, base.plant, &base.joints);
+      if (!result.grown) return result;
+      grown.emplace(
+          GrownPlant{{values.begin(), values.end()}, seed, growth.budget, result, Reshaper(std::move(base))});
+    }
+    grown->reshaper.reshape(growth.changes, growth.only_part, plant);
+    const GrowthResult result = grown->result;
+    if (growth.prune_to) grown.reset();
+    return result;
+  }
+
   /// What plants are pruned to stands for the volume "clip" of the file.
   void prune(Derivation& derivation, const Volume* volume, double unit_m) const {
     constexpr const char* kClip = "clip";
@@ -87,24 +145,29 @@ class LsystemModel : public Model {
                       : nullptr);
   }
 
-  /// A derivation that no other thread uses: they hold Lua states, which are no shared things. Which one it
-  /// is makes no difference to the plant.
-  std::unique_ptr<Derivation> take_idle() const {
+  /// A worker that no other thread uses: derivations hold Lua states, which are no shared things. Which one
+  /// it is makes no difference to the plant; one that has grown it before makes it faster.
+  std::unique_ptr<Worker> take_idle(std::span<const double> values, Seed seed,
+                                    const GrowthSettings& growth) const {
     {
       const std::lock_guard lock(mutex_);
       if (!idle_.empty()) {
-        std::unique_ptr<Derivation> derivation = std::move(idle_.back());
-        idle_.pop_back();
-        return derivation;
+        auto chosen = std::find_if(idle_.begin(), idle_.end(), [&](const auto& worker) {
+          return worker->grown && worker->grown->is_of(values, seed, growth.budget);
+        });
+        if (chosen == idle_.end()) --chosen;
+        std::unique_ptr<Worker> worker = std::move(*chosen);
+        idle_.erase(chosen);
+        return worker;
       }
     }
-    return std::make_unique<Derivation>(grammar_);
+    return std::make_unique<Worker>(grammar_);
   }
 
   Grammar grammar_;
   ParameterTable table_;
   mutable std::mutex mutex_;
-  mutable std::vector<std::unique_ptr<Derivation>> idle_;
+  mutable std::vector<std::unique_ptr<Worker>> idle_;
 };
 
 }  // namespace

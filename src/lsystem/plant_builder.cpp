@@ -51,7 +51,7 @@ class Builder : public SilentVisitor {
 
   void begin_segment(const Turtle& turtle, const Step& step) {
     if (!polygons_.empty()) return;
-    if (axis_.stem < 0) axis_.stem = stems_.add_stem(axis_.parent);
+    if (axis_.stem < 0) axis_.holder = axis_.stem = stems_.add_stem(axis_.parent);
     stems_.start_segment(axis_.stem, point(turtle.position), radius(turtle), turtle.color);
     if (step.arity >= 3) add_leaves(turtle, step);
   }
@@ -72,7 +72,7 @@ class Builder : public SilentVisitor {
 
   void open_branch() {
     stack_.push_back(axis_);
-    axis_ = {-1, axis_.stem >= 0 ? axis_.stem : axis_.parent, axis_.node};
+    axis_ = {-1, axis_.stem >= 0 ? axis_.stem : axis_.parent, axis_.holder, axis_.node};
   }
   void close_branch() {
     axis_ = stack_.back();
@@ -82,7 +82,7 @@ class Builder : public SilentVisitor {
   void other(const Turtle& turtle, const Step& step) {
     switch (step.command) {
       case Command::polygon_open:
-        polygons_.push_back({point(turtle.position)});
+        polygons_.push_back({{point(turtle.position)}, add_organ()});
         return;
       case Command::polygon_close:
         return close_polygon(turtle, step);
@@ -101,13 +101,16 @@ class Builder : public SilentVisitor {
     }
   }
 
+  /// Valid after finish().
+  PlantJoints& joints() { return joints_; }
+
   void finish() {
     if (!polygons_.empty())
       throw_input_error("got '{{' without '}}' in the string, expected polygons to end");
-    stems_.write(plant_, settings_.joint >= 0.5);
+    stems_.write(plant_, settings_.joint >= 0.5, joints_.stem_place);
     plant_.leaf_shape = settings_.leaf_shape;
     plant_.blossom_shape = settings_.blossom_shape;
-    if (!triangles_.empty()) draw_as_triangles(triangles_, plant_);
+    if (!triangles_.empty()) draw_as_triangles(triangles_, plant_, joints_.organ_of_leaf);
     check_places(plant_);
     const Bounds box = bounds(plant_);
     plant_.tree_scale_m = std::max(box.upper.z - box.lower.z, 0.0f);
@@ -117,8 +120,24 @@ class Builder : public SilentVisitor {
   struct Axis {
     std::int32_t stem = -1;    ///< -1 before its first segment
     std::int32_t parent = -1;  ///< the stem it springs from
+    std::int32_t holder = -1;  ///< the stem that bears what is placed here: also one before a jump
     Frames::Node node = -1;    ///< where the turtle is, in strings with frames
   };
+
+  struct Polygon {
+    std::vector<Vec3> outline;
+    std::uint32_t organ = 0;
+  };
+
+  Organ here(float t = 0) const {
+    StemPlace place = stems_.last_knot_of(axis_.holder);
+    place.t = t;
+    return {axis_.holder, place};
+  }
+  std::uint32_t add_organ(float t = 0) {
+    joints_.organs.push_back(here(t));
+    return static_cast<std::uint32_t>(joints_.organs.size() - 1);
+  }
 
   Vec3 point(const Vector& p) const {
     return Vec3{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)} * unit_;
@@ -130,8 +149,10 @@ class Builder : public SilentVisitor {
     return std::max(0.f, static_cast<float>(turtle.width) * unit_ / 2);
   }
 
-  void add_leaf(const Turtle& turtle, double length, double width, LeafKind kind) {
+  /// t: how far it is from the last knot to the next.
+  void add_leaf(const Turtle& turtle, double length, double width, LeafKind kind, float t = 0) {
     check_count();
+    joints_.organ_of_leaf.push_back(add_organ(t));
     plant_.leaves.position_m.push_back(point(turtle.position));
     plant_.leaves.axis.push_back(direction(turtle.heading));
     plant_.leaves.side.push_back(direction(turtle.left * -1));
@@ -174,11 +195,13 @@ class Builder : public SilentVisitor {
     roll.set(step.value_or(4, 140));
     Turtle along = turtle;
     for (int i = 0; i < count; ++i) {
+      const double share = static_cast<double>(i + 1) / count;
       along.position = turtle.position + turtle.heading * (step.values[0] * (i + 1) / count);
       along.roll_left(roll);
       Turtle leaf = along;
       leaf.pitch_up(down);
-      add_leaf(leaf, settings_.leaf_length, settings_.leaf_width, LeafKind::leaf);
+      add_leaf(leaf, settings_.leaf_length, settings_.leaf_width, LeafKind::leaf,
+               std::min(static_cast<float>(share), 1.f));
     }
   }
 
@@ -197,21 +220,21 @@ class Builder : public SilentVisitor {
   }
 
   void add_vertex(const Turtle& turtle) {
-    if (polygons_.back().size() >= kMostVertices)
+    if (polygons_.back().outline.size() >= kMostVertices)
       throw_input_error("got a polygon of more than {} vertices, expected fewer", kMostVertices);
-    polygons_.back().push_back(point(turtle.position));
+    polygons_.back().outline.push_back(point(turtle.position));
   }
 
-  void fill(const std::vector<Vec3>& outline, PartColor color) {
+  void fill(const std::vector<Vec3>& outline, PartColor color, std::uint32_t organ) {
     std::vector<Triangle> triangles;
     triangulate(outline, triangles);
-    for (const Triangle& triangle : triangles) add_triangle(triangle, color);
+    for (const Triangle& triangle : triangles) add_triangle(triangle, color, organ);
   }
 
   void close_polygon(const Turtle& turtle, const Step& step) {
     if (polygons_.empty())
       throw_input_error("module {} of the string: got '}}', expected a '{{' before it", step.module);
-    fill(polygons_.back(), turtle.color);
+    fill(polygons_.back().outline, turtle.color, polygons_.back().organ);
     polygons_.pop_back();
   }
 
@@ -231,12 +254,12 @@ class Builder : public SilentVisitor {
     if (outline.size() > kMostVertices)
       throw_input_error("module {} of the string: got a polygon of {} vertices, expected at most {}",
                         step.module, outline.size(), kMostVertices);
-    fill(outline, turtle.color);
+    fill(outline, turtle.color, add_organ());
   }
 
-  void add_triangle(const Triangle& triangle, PartColor color) {
+  void add_triangle(const Triangle& triangle, PartColor color, std::uint32_t organ) {
     check_count();
-    triangles_.push_back({triangle, color});
+    triangles_.push_back({triangle, color, organ});
   }
   void check_count(std::size_t more_leaves = 1, std::size_t more_copied_knots = 0) const {
     if (triangles_.size() + plant_.leaves.size() + more_leaves > kMostLeaves)
@@ -248,7 +271,8 @@ class Builder : public SilentVisitor {
   }
 
   /// A copy of a plant, as if its turtle started with the position and the directions of this one.
-  void add_copy(const Turtle& turtle, const Plant& plant, double scale, double width) {
+  void add_copy(const Turtle& turtle, const JointedPlant& from, double scale, double width) {
+    const Plant& plant = from.plant;
     const bool as_leaves = plant.leaf_shape == settings_.leaf_shape;
     const std::size_t pieces = as_leaves ? 1 : leaf_outline(plant.leaf_shape).triangles.size();
     check_count(pieces * plant.leaves.size(), plant.knots.size());
@@ -260,8 +284,11 @@ class Builder : public SilentVisitor {
     };
     const CopyFrame frame{point(turtle.position), metres(turtle.left, -width), metres(turtle.up, -width),
                           metres(turtle.heading, scale)};
-    copy_stems(plant, frame, axis_.stem >= 0 ? axis_.stem : axis_.parent, stems_);
-    copy_leaves(plant, frame, settings_.leaf_shape, plant_.leaves, triangles_);
+    const auto copies = copy_stems(from, frame, axis_.stem >= 0 ? axis_.stem : axis_.parent, stems_);
+    const auto first_organ = static_cast<std::uint32_t>(joints_.organs.size());
+    copy_organs(from, copies, here(), joints_.organs);
+    copy_leaves(from, frame, settings_.leaf_shape, first_organ, plant_.leaves, joints_.organ_of_leaf,
+                triangles_);
   }
 
   /// A surface of triangles, in the frame of a leaf.
@@ -270,11 +297,12 @@ class Builder : public SilentVisitor {
     const auto x = [&](const Vec3& v) { return turtle.left * (-width * static_cast<double>(v.x)); };
     const auto y = [&](const Vec3& v) { return turtle.heading * (length * static_cast<double>(v.y)); };
     const auto z = [&](const Vec3& v) { return turtle.up * (length * static_cast<double>(v.z)); };
+    const std::uint32_t organ = add_organ();
     for (const Triangle& triangle : surface) {
       Triangle placed;
       for (std::size_t k = 0; k < 3; ++k)
         placed[k] = point(turtle.position + x(triangle[k]) + y(triangle[k]) + z(triangle[k]));
-      add_triangle(placed, turtle.color);
+      add_triangle(placed, turtle.color, organ);
     }
   }
 
@@ -284,7 +312,8 @@ class Builder : public SilentVisitor {
   StemSplines stems_;
   Axis axis_;
   std::vector<Axis> stack_;
-  std::vector<std::vector<Vec3>> polygons_;  ///< those that are open
+  std::vector<Polygon> polygons_;  ///< those that are open
+  PlantJoints joints_;
   std::vector<ColoredTriangle> triangles_;
   std::size_t copied_knots_ = 0;
   Frames frames_;
@@ -300,12 +329,13 @@ bool has_frames(const SymbolTable& alphabet) {
 }  // namespace
 
 void build_plant(const ModuleString& string, const SymbolTable& alphabet, const Settings& settings,
-                 Plant& plant) {
+                 Plant& plant, PlantJoints* joints) {
   plant.clear();
   try {
     Builder builder(settings, has_frames(alphabet), plant);
     TurtleWalk(settings, builder).run(string, alphabet);
     builder.finish();
+    if (joints) *joints = std::move(builder.joints());
   } catch (const TooManyModules&) {
     throw;
   } catch (const InputError& error) {

@@ -7,13 +7,14 @@
 
 #include "lsystem/module_string.h"
 #include "lsystem/settings.h"
-#include "plant/plant.h"
+#include "plant/joints.h"
 
 namespace espalier::lsystem {
 
-/// Draws a string (after interpretation) into `plant`, whose memory is reused.
+/// Draws a string (after interpretation) into `plant`, whose memory is reused; `joints`, unless null, gets
+/// where its parts are fixed.
 /// Throws InputError for polygons that are not closed or commands with wrong parameters.
 void build_plant(const ModuleString& string, const SymbolTable& alphabet, const Settings& settings,
-                 Plant& plant);
+                 Plant& plant, PlantJoints* joints = nullptr);
 
 }  // namespace espalier::lsystem

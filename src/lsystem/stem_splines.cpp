@@ -23,9 +23,14 @@ void write_handles(Knots& knots, std::size_t begin, std::size_t end, bool smooth
 
 }  // namespace
 
-std::int32_t StemSplines::add_stem(std::int32_t parent) {
-  stems_.push_back({parent});
+std::int32_t StemSplines::add_stem(std::int32_t parent, StemPlace place) {
+  stems_.push_back({.parent = parent, .place = place});
   return static_cast<std::int32_t>(stems_.size() - 1);
+}
+
+StemPlace StemSplines::last_knot_of(std::int32_t stem) const {
+  const std::uint32_t knots = stem < 0 ? 0 : stems_[static_cast<std::size_t>(stem)].knot_count;
+  return {knots > 0 ? knots - 1 : 0, 0};
 }
 
 void StemSplines::start_segment(std::int32_t stem, Vec3 point_m, float radius_m, PartColor color) {
@@ -45,7 +50,7 @@ void StemSplines::end_segment(std::int32_t stem, Vec3 point_m, float radius_m) {
   knots_.push_back({point_m, radius_m, stem, {}});
 }
 
-void StemSplines::write(Plant& plant, bool smooth) const {
+void StemSplines::write(Plant& plant, bool smooth, std::vector<StemPlace>& stem_place) const {
   std::vector<std::uint32_t> next(stems_.size());
   std::vector<std::uint32_t> children(stems_.size(), 0);
   std::uint32_t knot = 0;
@@ -62,6 +67,7 @@ void StemSplines::write(Plant& plant, bool smooth) const {
     plant.stems.path_key.push_back(key.value);
     plant.stems.origin.push_back(stems_[s].parent);
     plant.stems.child_index.push_back(index);
+    stem_place.push_back(stems_[s].place);
     next[s] = knot;
     knot += stems_[s].knot_count;
   }

@@ -7,6 +7,7 @@
 #include "models/models.h"
 #include "models/preset_reader.h"
 #include "models/preset_source.h"
+#include "overrides/change_graph.h"
 #include "overrides/overrides_toml.h"
 
 namespace espalier {
@@ -70,7 +71,7 @@ Preset load_base(const toml::table& document, const PresetSource& source, Chain&
   return base;
 }
 
-/// Where the overrides of the i-th [[branch]] of a document stand, or the document alone for inherited ones.
+/// Where the overrides of this path stand in a document, or the document alone for those of a preset below.
 std::string place_of(const BranchPath& path, const toml::table& document, const PresetSource& source) {
   const toml::array* branches = document["branch"].as_array();
   if (branches)
@@ -80,14 +81,33 @@ std::string place_of(const BranchPath& path, const toml::table& document, const 
   return source.label;
 }
 
+/// Throws for what the model could not follow.
+void check_abilities(const Preset& preset, const Model& model, const std::string& label) {
+  if (!preset.overrides.empty() && !model.has_branch_paths())
+    throw_input_error("{}: got overrides of branches, expected none: model '{}' has no paths of branches",
+                      label, preset.model);
+  if (!preset.grown_into.empty() && !model.can_train())
+    throw_input_error("{}: key '{}': got outlines to grow into, expected none: model '{}' cannot", label,
+                      kGrownIntoKey, preset.model);
+}
+
+/// Throws for overrides, also shared ones, that would have no effect. A seed of 0 asks for none.
+void check_quantities(const OverrideNode& node, const Preset& preset, const Model& model,
+                      const toml::table& document, const PresetSource& source) {
+  for (const Override& entry : resolved_overrides(node.set, preset.overrides))
+    if (!model.can_change(entry.quantity) && !(entry.quantity == Quantity::seed && entry.number == 0))
+      throw_input_error("{}: {}: got one for branch {}, expected none: model '{}' cannot change it",
+                        place_of(node.path, document, source), quantity_name(entry.quantity),
+                        to_string(node.path), preset.model);
+}
+
 /// Throws for paths that no plant of these values can have; those of too few children are dormant.
 void check_branches(const Preset& preset, const Model& model, const toml::table& document,
                     const PresetSource& source) {
-  if ((!preset.overrides.empty() || !preset.grown_into.empty()) && !model.has_branch_paths())
-    throw_input_error("{}: got overrides of branches, expected none: model '{}' has no paths of branches",
-                      source.label, preset.model);
+  check_abilities(preset, model, source.label);
   const BranchLimits limits = model.branch_limits(preset.values);
   for (const OverrideNode& node : preset.overrides.nodes) {
+    check_quantities(node, preset, model, document, source);
     const auto levels = std::count_if(node.path.begin(), node.path.end(),
                                       [](std::uint32_t part) { return part < kFirstSplit; });
     if (levels > limits.levels)

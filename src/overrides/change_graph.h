@@ -32,6 +32,7 @@ class ChangeGraph {
  public:
   /// Throws InputError for a shared set that is unknown, or that leads back to itself.
   explicit ChangeGraph(const Overrides& overrides);
+  bool empty() const { return nodes_.size() == 1; }
 
  private:
   friend class ChangeCursor;

@@ -1,6 +1,7 @@
 // A model: a parameter table and a pure function from (values, seed) to a plant (DESIGN.md, idea 1).
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "core/parameter_table.h"
@@ -11,8 +12,9 @@
 
 namespace espalier {
 
-class ChangeGraph;  // overrides/change_graph.h
-class Volume;       // environment/volume.h
+class ChangeGraph;                   // overrides/change_graph.h
+enum class Quantity : std::uint8_t;  // overrides/branch_change.h
+class Volume;                        // environment/volume.h
 
 /// How large a plant may get. A candidate beyond it is refused before it is grown.
 struct GrowthBudget {
@@ -64,8 +66,12 @@ class Model {
     (void)levels;
     return {values.begin(), values.end()};
   }
-  /// Whether the model follows `changes`, `only_part` and `train` of GrowthSettings, and numbers its stems.
+  /// Whether the model follows `changes` and `only_part` of GrowthSettings, and numbers its stems.
   virtual bool has_branch_paths() const { return false; }
+  /// Whether a change of this quantity has an effect: some models change branches only after they have grown.
+  virtual bool can_change(Quantity) const { return has_branch_paths(); }
+  /// Whether the model follows `train`: it can grow into a volume.
+  virtual bool can_train() const { return false; }
   virtual BranchLimits branch_limits(std::span<const double> values) const {
     (void)values;
     return {};

@@ -21,6 +21,7 @@ class WeberPennModel : public Model {
   }
 
   bool has_branch_paths() const override { return true; }
+  bool can_train() const override { return true; }
 
   BranchLimits branch_limits(std::span<const double> values) const override {
     const WeberPennParameters p = weber_penn_parameters(values);

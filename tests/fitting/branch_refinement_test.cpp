@@ -74,6 +74,22 @@ TEST(BranchRefinement, OverridesBranchesOfItsOrderOnly) {
   }
 }
 
+TEST(BranchRefinement, LeavesOutWhatAModelCannotChange) {
+  SmallTask small;
+  small.task.model = &model_by_name("acer.lsys");
+  Solution solution{.values = small.task.model->table().defaults(), .plant_seed = 1};
+  solution.score = score_of(small.task, solution);
+  for (const int order : {0, 1, 2}) {
+    const double before = solution.score;
+    refine_branches(small.task, settings_of(order, 300), solution);
+    EXPECT_LE(solution.score, before);
+  }
+  EXPECT_EQ(solution.score, score_of(small.task, solution));
+  ASSERT_FALSE(solution.overrides.empty());
+  for (const OverrideNode& node : solution.overrides.nodes)
+    for (const Override& entry : node.set.overrides) EXPECT_NE(entry.quantity, Quantity::seed);
+}
+
 TEST(BranchRefinement, ATreeWithoutSuchBranchesIsLeftAsItIs) {
   SmallTask small;
   small.set("levels", 1);

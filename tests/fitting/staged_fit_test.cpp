@@ -85,6 +85,39 @@ TEST(StagedFit, ThePresetItLeavesGrowsTheSamePicture) {
   }
 }
 
+FitRecord lsystem_record(long rounds) {
+  FitRecord record = staged_record(rounds, "fir");
+  record.model = "small_pine.lsys";
+  record.start = "defaults";
+  record.growth = {};
+  return record;
+}
+
+TEST(StagedFit, AnLsystemIsRefinedBranchByBranchToo) {
+  const fs::path run = new_run("lsystem_branches");
+  const FitResult searched = fit(lsystem_record(0), new_run("lsystem_search")),
+                  refined = fit(lsystem_record(3), run);
+  EXPECT_GT(refined.fitness, searched.fitness + 0.01);
+  EXPECT_EQ(refined.values, searched.values);
+  EXPECT_FALSE(refined.overrides.empty());
+  EXPECT_EQ(differing_px(regrown(run, 32).mask, read_mask(run / "best.png").mask), 0u);
+}
+
+TEST(StagedFit, ALeaflessPictureIsNotTracedByAnLsystem) {
+  FitRecord record = lsystem_record(1);
+  record.kind = "leafless";
+  const FitResult searched = fit(lsystem_record(0), new_run("lsystem_leafless_search")),
+                  refined = fit(record, new_run("lsystem_leafless"));
+  EXPECT_GE(refined.fitness, searched.fitness);
+  EXPECT_EQ(refined.values, searched.values);
+}
+
+TEST(StagedFit, AnLsystemCannotBeTrained) {
+  FitRecord record = lsystem_record(1);
+  record.train_to_target = true;
+  EXPECT_THROW(fit(record, new_run("lsystem_trained")), InputError);
+}
+
 TEST(StagedFit, ResumedItIsTheUnbrokenRun) {
   const fs::path unbroken = new_run("staged_unbroken"), broken = new_run("staged_broken");
   fit(staged_record(3), unbroken);

@@ -24,13 +24,13 @@ class Copies : public testing::Test {
 
   void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
 
-  Plant plant_of(const std::string& text) {
+  Plant plant_of(const std::string& text, PlantJoints* joints = nullptr) {
     const Grammar grammar = parse_grammar(text, "host.lsys", folder_);
     Derivation derivation(grammar);
     derivation.start(1);
     derivation.run(derivation.settings().steps);
     Plant plant;
-    build_plant(derivation.interpreted(), derivation.alphabet(), derivation.settings(), plant);
+    build_plant(derivation.interpreted(), derivation.alphabet(), derivation.settings(), plant, joints);
     return plant;
   }
 
@@ -52,6 +52,18 @@ void expect_same(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LT(length(a[i] - b[i]), 1e-5f) << i;
 }
 
+void expect_same(const PlantJoints& a, const PlantJoints& b) {
+  EXPECT_EQ(a.organ_of_leaf, b.organ_of_leaf);
+  ASSERT_EQ(a.organs.size(), b.organs.size());
+  for (std::size_t i = 0; i < a.organs.size(); ++i) {
+    EXPECT_EQ(a.organs[i].stem, b.organs[i].stem) << i;
+    EXPECT_EQ(a.organs[i].place.knot, b.organs[i].place.knot) << i;
+  }
+  ASSERT_EQ(a.stem_place.size(), b.stem_place.size());
+  for (std::size_t s = 0; s < a.stem_place.size(); ++s)
+    EXPECT_EQ(a.stem_place[s].knot, b.stem_place[s].knot) << s;
+}
+
 constexpr const char* kTwig =
     "steps: 1\nwidth: 0.1\nparam turn = 30 in 0 .. 90\naxiom: X\nproductions:\n"
     " X --> F[+(turn);(0.5,0,1)F~(\"leaf\",0.5)]F~(\"blossom\",0.3)\n";
@@ -59,10 +71,11 @@ constexpr const char* kTwig =
 TEST_F(Copies, AreWhatTheirStringWouldDrawInTheirPlace) {
   write("twig.lsys", kTwig);
   const std::string head = "unit: 2\nwidth: 0.1\nplant twig = \"twig.lsys\"\n";
-  const Plant copied = plant_of(head + "axiom: F[&(40)/(20)F[~(\"twig\")]F(2)]\n"),
+  PlantJoints joints, written_joints;
+  const Plant copied = plant_of(head + "axiom: F[&(40)/(20)F[~(\"twig\")]F(2)]\n", &joints),
               written = plant_of(
-                  head +
-                  "axiom: F[&(40)/(20)F[F[+(30);(0.5,0,1)F~(\"leaf\",0.5)]F~(\"blossom\",0.3)]F(2)]\n");
+                  head + "axiom: F[&(40)/(20)F[F[+(30);(0.5,0,1)F~(\"leaf\",0.5)]F~(\"blossom\",0.3)]F(2)]\n",
+                  &written_joints);
   EXPECT_EQ(copied.stems.parent, written.stems.parent);
   ASSERT_EQ(copied.knots.size(), written.knots.size());
   for (std::size_t k = 0; k < copied.knots.size(); ++k)
@@ -75,6 +88,7 @@ TEST_F(Copies, AreWhatTheirStringWouldDrawInTheirPlace) {
   expect_same(copied.leaves.position_m, written.leaves.position_m);
   expect_same(copied.leaves.axis, written.leaves.axis);
   expect_same(copied.leaves.side, written.leaves.side);
+  expect_same(joints, written_joints);
 }
 
 TEST_F(Copies, TakeParametersAndSeeds) {

@@ -109,6 +109,53 @@ TEST(PlantBuilder, SurfacesStandWhereTheTurtleIs) {
   EXPECT_NEAR(dot(plant.leaves.axis[0], plant.leaves.side[0]), 0, 1e-6);
 }
 
+JointedPlant jointed_plant_of(const std::string& text) {
+  const Grammar grammar = parse_grammar(text, "test.lsys");
+  Derivation derivation(grammar);
+  derivation.start(1);
+  JointedPlant grown;
+  build_plant(derivation.interpreted(), derivation.alphabet(), derivation.settings(), grown.plant,
+              &grown.joints);
+  return grown;
+}
+
+/// The stem and the knot of it that bear each leaf.
+std::vector<std::pair<std::int32_t, std::uint32_t>> bearers_of_leaves(const JointedPlant& grown) {
+  std::vector<std::pair<std::int32_t, std::uint32_t>> bearers;
+  for (const std::uint32_t organ : grown.joints.organ_of_leaf)
+    bearers.emplace_back(grown.joints.organs[organ].stem, grown.joints.organs[organ].place.knot);
+  return bearers;
+}
+
+using Bearers = std::vector<std::pair<std::int32_t, std::uint32_t>>;
+
+TEST(PlantBuilder, LeavesHangWhereTheTurtleWas) {
+  const JointedPlant grown =
+      jointed_plant_of("axiom: ~(\"leaf\")F[+F~(\"leaf\")]F[~(\"leaf\")]Ff~(\"leaf\")[f~(\"blossom\")]\n");
+  EXPECT_EQ(bearers_of_leaves(grown), (Bearers{{-1, 0}, {1, 1}, {0, 2}, {0, 3}, {0, 3}}));
+  EXPECT_EQ(grown.joints.stem_place[1].knot, 1u);
+}
+
+TEST(PlantBuilder, TrianglesOfASurfaceAreOneOrgan) {
+  const JointedPlant grown = jointed_plant_of("axiom: F[+F~(\"leaf\")]{+f-f-f-f}~(\"blossom\")\n");
+  ASSERT_EQ(grown.joints.organ_of_leaf.size(), grown.plant.leaves.size());
+  EXPECT_EQ(grown.joints.organs.size(), 3u);
+  for (std::size_t i = 0; i < grown.plant.leaves.size(); ++i) {
+    const std::uint32_t organ = grown.joints.organ_of_leaf[i];
+    EXPECT_EQ(grown.joints.organs[organ].stem, organ == 0 ? 1 : 0);
+    EXPECT_EQ(grown.plant.leaves.kind[i] == LeafKind::blossom, organ == 2);
+  }
+}
+
+TEST(PlantBuilder, LeavesAlongASegmentHangBetweenItsKnots) {
+  const JointedPlant grown = jointed_plant_of("axiom: FF(1,0.1,4)\n");
+  ASSERT_EQ(grown.joints.organs.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(grown.joints.organs[i].place.knot, 1u);
+    EXPECT_FLOAT_EQ(grown.joints.organs[i].place.t, 0.25f * static_cast<float>(i + 1));
+  }
+}
+
 TEST(PlantBuilder, TropismTurnsByTheAngleOfItsFormula) {  // [Herbaceous §3]: e·|H × T|
   const Plant plant = plant_of("tropism: 0, 0, -1\nsusceptibility: 0.3\naxiom: +(90)FF\n");
   const Vec3 second = normalized(plant.knots.point_m[2] - plant.knots.point_m[1]);

@@ -239,6 +239,46 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"ExtendsAMissingFile", "extends = \"no.toml\"", "key 'extends': "}),
     [](const auto& info) { return info.param.law; });
 
+class LsystemPresetFault : public testing::TestWithParam<Fault> {};
+
+TEST_P(LsystemPresetFault, IsOneLineWithPlaceGotAndExpected) {
+  const PresetFolder folder;
+  const std::string file = folder.write("bad.toml", "model = \"acer.lsys\"\n" + GetParam().line + "\n");
+  try {
+    load_preset(file);
+    FAIL() << "expected InputError";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith(file + ":" + GetParam().message));
+    EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("\n")));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    One, LsystemPresetFault,
+    testing::Values(
+        Fault{"Seed", "[[branch]]\npath = \"0/1\"\nseed = 7",
+              "2: seed: got one for branch 0/1, expected none: model 'acer.lsys' cannot change it"},
+        Fault{"SharedSeed",
+              "[[branch]]\npath = \"0/1\"\nlength = 1.0\n[[branch]]\npath = \"0/2\"\n"
+              "shares = \"x\"\n[shared.x]\nshares = \"y\"\n[shared.y]\nseed = 7",
+              "5: seed: got one for branch 0/2, expected none"},
+        Fault{"GrowingIntoAPicture",
+              "[[grown_into]]\noutline = \"a.png\"\nmetres_per_px = 1\nbase_row_px = 1",
+              " key 'grown_into': got outlines to grow into, expected none: model 'acer.lsys'"}),
+    [](const auto& info) { return info.param.law; });
+
+TEST(Preset, AnLsystemsBranchesMayBeOverridden) {
+  const PresetFolder folder;
+  const std::string base = folder.write("base.toml",
+                                        "model = \"acer.lsys\"\n[[branch]]\npath = \"0/1\"\nlength = 1.5\n"
+                                        "[[branch]]\npath = \"0/2\"\nseed = 0\n");
+  const std::string file =
+      folder.write("next.toml", "extends = \"base.toml\"\n[[branch]]\npath = \"0/1\"\nremoved = true\n");
+  const Preset preset = load_preset(file);
+  EXPECT_EQ(preset.model, "acer.lsys");
+  EXPECT_EQ(preset.overrides.find({0, 1})->set.overrides.size(), 2u);
+}
+
 std::string loading_error(const std::string& name_or_path) {
   try {
     load_preset(name_or_path);
