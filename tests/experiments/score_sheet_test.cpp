@@ -58,12 +58,14 @@ TEST(ScoreSheet, HoldsEachStageAndTheBaselineAndIsTheSameTwice) {
   const fs::path report = folder / "0/report";
   const CsvTable targets = read_csv(report / "score_sheet.csv"),
                  groups = read_csv(report / "score_groups.csv");
-  EXPECT_EQ(targets.rows.size(), 2u * (1 + 2 * 2)) << "targets × (baseline, methods × stages)";
+  EXPECT_EQ(targets.rows.size(), 2u * (1 + 2 * 3))
+      << "targets × (baseline, methods × (search, branches, full size))";
   for (const char* target : {"oc_palm", "oc_orange"}) {
     EXPECT_EQ(number_of(targets, {{"target", target}, {"method", "outline, no tree"}}, "outline_iou"), 1);
     EXPECT_EQ(number_of(targets, {{"target", target}, {"method", "outline, no tree"}}, "gap_iou"), 0);
-    EXPECT_EQ(number_of(targets, {{"target", target}, {"method", "trained"}, {"stage", "branches"}}, "runs"),
-              2);
+    for (const char* stage : {"branches", "at 512 px"})
+      EXPECT_EQ(number_of(targets, {{"target", target}, {"method", "trained"}, {"stage", stage}}, "runs"), 2)
+          << stage;
   }
   const auto iou = [&](const std::string& group) {
     return number_of(groups, {{"group", group}, {"method", "plain"}, {"stage", "search"}}, "iou");
