@@ -1,6 +1,7 @@
 // The stages of a run that are about branches: traced, refined, finished.
 #include "fitting/fit_run.h"
 #include "fitting/record_task.h"
+#include "fitting/stages/branch_refinement.h"
 #include "fitting/stages/branch_tracing.h"
 #include "fitting/stages/finish.h"
 #include "fitting/stages/picture_reading.h"
@@ -44,7 +45,7 @@ void FitRun::refine_by_rounds() {
   }
 }
 
-/// From here on scores are those at both sizes.
+/// From here on lanes are scored at both sizes.
 void FitRun::begin_finish() {
   finer_task_ = with_finer_views(record_, task_);
   state_.branches.finish_from = state_.branches.rounds;
@@ -76,8 +77,9 @@ void FitRun::go_on_from(const BranchRounds& reached) {
 void FitRun::note_round() {
   const Solution& best = state_.branches.best();
   const std::vector<Mask> masks = draw_candidate(task_, best.values, *renderer_, best.overrides);
+  const double score = finishing() ? score_of(task_, best) : best.score;
   state_.branches.history.push_back(
-      {stage_, state_.branches.steps, seconds(), best.score, mean_metrics(task_, masks)});
+      {stage_, state_.branches.steps, seconds(), score, best.score, mean_metrics(task_, masks)});
   add_to_trace(state_.branches.history.back());
   refresh_directory_if_old();
   report_progress();

@@ -36,13 +36,15 @@ std::vector<GenerationRow> read_trace(const fs::path& path) {
   return rows;
 }
 
+/// The best so far: the finish of a fit refines by another measure than that of the trace, which may fall.
 StepCurve curve_of(const std::vector<GenerationRow>& trace) {
   StepCurve curve;
   for (const GenerationRow& row : trace) {
+    const double best = curve.best.empty() ? row.best : std::max(curve.best.back(), row.best);
     if (!curve.evaluations.empty() && curve.evaluations.back() == row.evaluations)
-      curve.best.back() = row.best;
+      curve.best.back() = best;
     else
-      curve.evaluations.push_back(row.evaluations), curve.best.push_back(row.best);
+      curve.evaluations.push_back(row.evaluations), curve.best.push_back(best);
   }
   return curve;
 }

@@ -30,6 +30,7 @@ nlohmann::ordered_json row_to_json(const RoundRow& row) {
       {"steps", row.steps},
       {"seconds", row.seconds},
       {"score", row.score},
+      {"own_score", row.own_score},
       {"metrics",
        {m.pixel_accuracy, m.iou, m.dice, m.tolerant_iou, m.outline_iou, m.truncated_distance, m.gap_iou}}};
 }
@@ -41,6 +42,7 @@ RoundRow row_from_json(const nlohmann::json& json) {
   row.steps = json.at("steps");
   row.seconds = json.at("seconds");
   row.score = json.at("score");
+  row.own_score = json.value("own_score", row.score);  // earlier versions had one measure
   row.metrics = {m[0], m[1], m[2], m[3], m[4], m[5], m[6]};
   return row;
 }

@@ -16,7 +16,9 @@ namespace espalier {
 struct RoundRow {
   std::string stage;  ///< "tracing", "branches" or "finish"
   long steps = 0;
-  double seconds = 0, score = 1;
+  double seconds = 0;
+  double score = 1;      ///< in masks of the search's size, as all stages before
+  double own_score = 1;  ///< that the stage refines by: in the finish the mean over both sizes
   MaskMetrics metrics;
 };
 

@@ -54,7 +54,7 @@ std::map<std::string, SearchRange> measured_ranges(const PictureReading& reading
                         : SearchRange{0.005, 0.03};
   if (shows_trunk(reading)) ranges["flare"] = {0, std::max(0.1, seen_flare(reading))};
   ranges["blossom_rate"] = {0, 0};  // a silhouette does not show them
-  if (kind == TreeKind::palm) {  // thin ribs, with leaflets that are long and narrow
+  if (kind == TreeKind::palm) {     // thin ribs, with leaflets that are long and narrow
     ranges["base_size[0]"] = {0.75, 0.98};
     ranges["branches[1]"] = {10, 60};
     ranges["length[1]"] = {0.08, 0.9};

@@ -17,7 +17,7 @@ const std::string kSheet = ESPALIER_SOURCE_DIR "/experiments/closeness.toml";
 std::string arguments_of(const fs::path& out) {
   return "experiment run '" + kSheet + "' --out '" + out.string() +
          "' --quiet --set 'targets=[\"oc_palm\",\"oc_orange\"]' --set 'seeds=[1,2]' --set evaluations=30 "
-         "--set branch_rounds=1 --set size=32 --set max_stems=150 --set max_leaves=600 --set "
+         "--set branch_rounds=3 --set size=32 --set max_stems=150 --set max_leaves=600 --set "
          "'starts=[\"palm\"]'";
 }
 
@@ -58,12 +58,12 @@ TEST(ScoreSheet, HoldsEachStageAndTheBaselineAndIsTheSameTwice) {
   const fs::path report = folder / "0/report";
   const CsvTable targets = read_csv(report / "score_sheet.csv"),
                  groups = read_csv(report / "score_groups.csv");
-  EXPECT_EQ(targets.rows.size(), 2u * (1 + 2 * 3))
-      << "targets × (baseline, methods × (search, branches, full size))";
+  EXPECT_EQ(targets.rows.size(), 2u * (1 + 2 * 4))
+      << "targets × (baseline, methods × (search, branches, finish, full size))";
   for (const char* target : {"oc_palm", "oc_orange"}) {
     EXPECT_EQ(number_of(targets, {{"target", target}, {"method", "outline, no tree"}}, "outline_iou"), 1);
     EXPECT_EQ(number_of(targets, {{"target", target}, {"method", "outline, no tree"}}, "gap_iou"), 0);
-    for (const char* stage : {"branches", "at 512 px"})
+    for (const char* stage : {"branches", "finish", "at 512 px"})
       EXPECT_EQ(number_of(targets, {{"target", target}, {"method", "trained"}, {"stage", stage}}, "runs"), 2)
           << stage;
   }
@@ -88,7 +88,7 @@ TEST(ScoreSheet, TheLastStageIsWhatTheTableOfRunsHolds) {
       EXPECT_NEAR(number_of(sheet,
                             {{"target", results.text(row, "target")},
                              {"method", results.text(row, "trained")},
-                             {"stage", "branches"}},
+                             {"stage", "finish"}},
                             metric),
                   results.number(row, metric), 0.0006)
           << metric;

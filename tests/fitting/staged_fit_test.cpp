@@ -173,7 +173,7 @@ TEST(StagedFit, NoStageEndsWorseThanItBegan) {
     if (stages.empty() || stages.back() != history[i]["stage"])
       stages.push_back(history[i]["stage"]);
     else
-      EXPECT_LE(history[i]["score"], history[i - 1]["score"]) << i;
+      EXPECT_LE(history[i]["own_score"], history[i - 1]["own_score"]) << i;
   }
   EXPECT_EQ(stages, (std::vector<std::string>{"tracing", "branches", "finish"}));
 }
