@@ -19,7 +19,7 @@ inline Turn operator*(const Turn& first, const Turn& second) {
 /// About a unit vector, right-handed (Rodrigues' formula).
 inline Turn turn_about(Vec3 axis, float angle_deg) {
   const auto [sine, cosine] = sine_cosine_deg(angle_deg);
-  const auto turned = [&](Vec3 v) {
+  const auto turned = [axis, sine = sine, cosine = cosine](Vec3 v) {
     return v * cosine + cross(axis, v) * sine + axis * (dot(axis, v) * (1 - cosine));
   };
   return {turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1})};
