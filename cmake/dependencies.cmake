@@ -16,7 +16,7 @@ add_library(assimp::assimp ALIAS PkgConfig::assimp)
 pkg_check_modules(luajit REQUIRED IMPORTED_TARGET luajit)
 find_package(embree 3 REQUIRED)
 find_package(HWY REQUIRED)
-find_package(Boost 1.74 REQUIRED)  # headers only: Boost.Math
+find_package(Boost 1.74 REQUIRED)  # headers only: Boost.Math, Boost.Geometry
 # Two Debian packages share the name NLopt; the C++ build holds every algorithm, AGS too.
 set(NLopt_DIR /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/nlopt_cxx CACHE PATH "NLopt built with its C++ algorithms")
 find_package(NLopt REQUIRED)

@@ -67,7 +67,7 @@ std::map<std::string, SearchRange> measured_ranges(const PictureReading& reading
     constexpr double kLongestLeaf = 0.035;  // of the height: longer ones fill crowns as blobs
     ranges["leaf_scale"] = {0.003 * height_m, kLongestLeaf * height_m};
     ranges["leaf_blos_num"] = {8, 120};
-    const double base = std::min(0.8 * reading.crown_base, 0.5);
+    const double base = shows_trunk(reading) ? std::min(0.8 * reading.crown_base, 0.5) : 0;
     ranges["base_size[0]"] = {base, std::max(0.6, base + 0.2)};
     ranges["length[1]"] = {0.05, 0.9};
     ranges["length[2]"] = {0.05, 0.7};

@@ -12,11 +12,12 @@ enum class TreeKind { leafy, leafless, palm };
 struct PictureReading {
   TreeKind kind = TreeKind::leafy;
   int height_px = 0;
-  double trunk_width = 0;      ///< a little above the foot
+  double trunk_width = 0;      ///< a little above the foot, or above what the trunk stands on
   double foot_width = 0;       ///< of the lowest row: where the trunk flares
   double crown_base = 0;       ///< height at which the outline becomes wider than a trunk
   double crown_width = 0;      ///< of the whole tree
   double cover = 0;            ///< set share of the filled outline: 1 - porosity
+  double hull_cover = 0;       ///< set share of the convex hull
   int trunks = 1;              ///< separate stems at the foot
   bool touches_frame = false;  ///< at the sides or the top: the picture cuts the tree off
 };

@@ -24,9 +24,9 @@ struct TargetPaths {
 std::string reading_in_words(const PictureReading& reading) {
   return fmt::format(
       "a {} tree: trunk {:.3f} wide, foot {:.3f}, crown {:.2f} wide from {:.2f} up (shares of its height); "
-      "{:.0f} % of its outline covered; {} at the foot",
+      "{:.0f} % of its outline and {:.0f} % of its convex hull covered; {} at the foot",
       kind_name(reading.kind), reading.trunk_width, reading.foot_width, reading.crown_width,
-      reading.crown_base, 100 * reading.cover,
+      reading.crown_base, 100 * reading.cover, 100 * reading.hull_cover,
       reading.trunks == 1 ? "1 trunk" : fmt::format("{} trunks", reading.trunks));
 }
 

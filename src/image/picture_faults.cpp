@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "image/clean.h"
+#include "image/mask_box.h"
 #include "image/morphology.h"
 
 namespace espalier {
@@ -21,22 +22,6 @@ constexpr double kContactOfInside = 0.55, kInsideDepth = 0.04;
 // A piece is a tree of its own if it is not too small beside the largest, and stands about as low.
 constexpr double kLeastArea = 0.15, kLeastHeight = 0.35, kFootBand = 0.12, kMostOverlap = 0.3;
 constexpr double kLooseLeaves = 1.0 / 64;  ///< of the larger side: gaps up to twice this are closed
-
-struct Box {
-  int left = 0, right = 0, top = 0, bottom = 0;  ///< ends exclusive
-  int width() const { return right - left; }
-  int height() const { return bottom - top; }
-};
-
-Box box_of(const Mask& mask) {
-  Box box{mask.width_px(), 0, mask.height_px(), 0};
-  for (int y = 0; y < mask.height_px(); ++y)
-    for (int x = 0; x < mask.width_px(); ++x)
-      if (mask.get(x, y))
-        box = {std::min(box.left, x), std::max(box.right, x + 1), std::min(box.top, y),
-               std::max(box.bottom, y + 1)};
-  return box;
-}
 
 int set_in_row(const Mask& mask, int y) {
   int count = 0;
@@ -65,7 +50,7 @@ bool is_spread_foot(const Mask& mask, int height) {
 }
 
 void find_cuts(const Mask& mask, PictureFaults& faults) {
-  const Box box = box_of(mask);
+  const MaskBox box = box_of(mask);
   const int right = mask.width_px() - 1, bottom = mask.height_px() - 1;
   const int deep_x = std::max(1, static_cast<int>(std::lround(kInsideDepth * mask.width_px())));
   const int deep_y = std::max(1, static_cast<int>(std::lround(kInsideDepth * mask.height_px())));
@@ -85,10 +70,10 @@ std::vector<Mask> trees_in(const Mask& mask) {
   const Mask closed = close_disc(mask, std::max(1, static_cast<int>(std::lround(kLooseLeaves * side))));
   std::vector<Mask> pieces = separate_pieces(closed, area_px(closed) / 20 + 1, Connectivity::eight);
   if (pieces.empty()) return pieces;
-  const Box all = box_of(mask), largest = box_of(pieces.front());
+  const MaskBox all = box_of(mask), largest = box_of(pieces.front());
   const double least_area = kLeastArea * static_cast<double>(area_px(pieces.front()));
   const auto is_tree = [&](const Mask& piece) {
-    const Box box = box_of(piece);
+    const MaskBox box = box_of(piece);
     const int overlap = std::min(box.right, largest.right) - std::max(box.left, largest.left);
     return static_cast<double>(area_px(piece)) >= least_area && box.height() >= kLeastHeight * all.height() &&
            all.bottom - box.bottom <= kFootBand * all.height() &&
@@ -114,7 +99,7 @@ PictureFaults picture_faults(const Mask& mask) {
 Mask largest_tree(const Mask& mask) {
   const std::vector<Mask> trees = trees_in(mask);
   if (trees.size() < 2) return mask;
-  const Box box = box_of(trees.front());
+  const MaskBox box = box_of(trees.front());
   Mask alone(mask.width_px(), mask.height_px());
   for (int y = 0; y < mask.height_px(); ++y)
     for (int x = box.left; x < box.right; ++x) {

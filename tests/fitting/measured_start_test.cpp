@@ -99,5 +99,10 @@ TEST(MeasuredStart, AStartTakesTheWidthOfTheCrown) {
   }
 }
 
+TEST(MeasuredStart, ACrownDownToTheGroundMayBeginThere) {
+  PictureReading reading{.trunk_width = 0.4, .foot_width = 0.5, .crown_base = 0.6, .crown_width = 0.7};
+  EXPECT_EQ(measured_ranges(reading, TreeKind::leafy, 10).at("base_size[0]").lower, 0);
+}
+
 }  // namespace
 }  // namespace espalier

@@ -48,6 +48,32 @@ TEST(PictureReading, MeasuresDoNotDependOnTheSizeOfTheMask) {
   }
 }
 
+TEST(PictureReading, AFewThickLimbsAreATreeWithoutLeaves) {
+  Mask mask(128, 128);
+  const auto draw_limb = [&](int from_x, int from_y, int to_x, int to_y) {
+    for (int step = 0; step <= 200; ++step)
+      for (int dy = -4; dy <= 4; ++dy)
+        for (int dx = -4; dx <= 4; ++dx)
+          mask.set(from_x + step * (to_x - from_x) / 200 + dx, from_y + step * (to_y - from_y) / 200 + dy);
+  };
+  draw_limb(64, 120, 64, 70), draw_limb(64, 70, 10, 20), draw_limb(64, 70, 118, 30);
+  const PictureReading reading = read_picture(mask);
+  EXPECT_GT(reading.cover, 0.745) << "its gaps are too wide to be closed";
+  EXPECT_EQ(reading.kind, TreeKind::leafless);
+}
+
+TEST(PictureReading, APorousCrownIsNoWinterTree) {
+  Mask mask(128, 128);  // a ball of leaves that cover three fifths of it, on a trunk
+  for (int y = 10; y < 120; ++y)
+    for (int x = 0; x < 128; ++x) {
+      const bool in_crown = (x - 64) * (x - 64) + (y - 55) * (y - 55) < 45 * 45;
+      if (in_crown ? (x / 4 + 3 * (y / 4)) % 5 < 3 : y > 55 && std::abs(x - 64) < 4) mask.set(x, y);
+    }
+  const PictureReading reading = read_picture(mask);
+  EXPECT_LT(reading.cover, 0.745);
+  EXPECT_EQ(reading.kind, TreeKind::leafy);
+}
+
 TEST(PictureReading, APoleHasNoCrown) {
   Mask mask(64, 64);
   for (int y = 4; y < 60; ++y) mask.set(30, y), mask.set(31, y);

@@ -1,0 +1,119 @@
+#include "fitting/stages/trunk_measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace espalier {
+
+namespace {
+
+constexpr double kFoot = 0.06;         ///< of the height: roots, grass, twigs that hang down
+constexpr double kTrunkOrCrown = 2.2;  ///< as wide as this many trunks: no trunk that leans or flares
+
+int rows_of_height(const MaskBox& box, double share) {
+  return static_cast<int>(std::lround(share * box.height()));
+}
+
+/// Columns between the first and the last set pixel of a row.
+int extent_px(const Mask& mask, int y) {
+  int first = -1, last = -2;
+  for (int x = 0; x < mask.width_px(); ++x) {
+    if (!mask.get(x, y)) continue;
+    if (first < 0) first = x;
+    last = x;
+  }
+  return last - first + 1;
+}
+
+int runs_in_row(const Mask& mask, int y) {
+  int runs = 0;
+  for (int x = 0; x < mask.width_px(); ++x)
+    if (mask.get(x, y) && (x == 0 || !mask.get(x - 1, y))) ++runs;
+  return runs;
+}
+
+int longest_run_px(const Mask& mask, int y) {
+  int longest = 0, run = 0;
+  for (int x = 0; x < mask.width_px(); ++x) {
+    run = mask.get(x, y) ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  return longest;
+}
+
+/// The row a little above the foot, where roots and grass no longer show.
+int foot_row(const MaskBox& box) { return std::max(box.top, box.bottom - 1 - rows_of_height(box, 0.03)); }
+
+/// The narrowest row near the foot: above roots and grass, and between twigs that hang down to them.
+int width_near_foot_px(const Mask& mask, const MaskBox& box) {
+  int narrowest = longest_run_px(mask, foot_row(box));
+  const int top = std::max(box.top, box.bottom - 1 - rows_of_height(box, kFoot));
+  for (int y = top; y < box.bottom - 1; ++y) narrowest = std::min(narrowest, longest_run_px(mask, y));
+  return std::max(narrowest, 1);
+}
+
+/// Rows from the foot up that are at most so wide.
+int rows_within(const Mask& mask, const MaskBox& box, double width_px) {
+  int rows = 0;
+  while (rows < box.height() && extent_px(mask, box.bottom - 1 - rows) <= width_px) ++rows;
+  return rows;
+}
+
+/// A crown that is narrow beside its trunk begins where the outline becomes wider than halfway between them.
+int bare_height_px(const Mask& mask, const MaskBox& box, int trunk_px) {
+  const int rows = rows_within(mask, box, kTrunkOrCrown * trunk_px);
+  if (rows < box.height()) return rows;
+  int widest_px = 0;
+  for (int y = box.top; y < box.bottom; ++y) widest_px = std::max(widest_px, extent_px(mask, y));
+  return rows_within(mask, box, 0.5 * (trunk_px + widest_px));
+}
+
+struct Waist {
+  int width_px = 0;
+  int rows = 0;  ///< from the foot up to the crown above it
+};
+
+/// The narrowest row between the foot and the crown, if what is below it bulges: a mound, a pot or a stand,
+/// where the foot of a trunk is widest at the ground.
+std::optional<Waist> waist_of(const Mask& mask, const MaskBox& box) {
+  constexpr double kHighest = 0.5;  // of the height: above it are gaps between tiers, and tips
+  constexpr double kBulge = 1.2;    // of the width at the ground
+  const int ground_px = longest_run_px(mask, box.bottom - 1);
+  Waist waist{mask.width_px(), 0};
+  int widest_below_px = 0, widest_px = 0;
+  for (; waist.rows < kHighest * box.height(); ++waist.rows) {
+    const int width_px = extent_px(mask, box.bottom - 1 - waist.rows);
+    const bool is_above_foot = waist.rows > rows_of_height(box, kFoot);
+    if (is_above_foot && width_px > kTrunkOrCrown * waist.width_px) {
+      const bool bulges =
+          widest_below_px >= kTrunkOrCrown * waist.width_px && widest_below_px >= kBulge * ground_px;
+      return bulges ? std::optional(waist) : std::nullopt;
+    }
+    widest_px = std::max(widest_px, width_px);
+    if (is_above_foot && width_px > 0 && width_px < waist.width_px) {
+      waist.width_px = width_px;
+      widest_below_px = widest_px;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+TrunkMeasures measure_trunk(const Mask& mask, const MaskBox& box) {
+  constexpr double kTwigs =
+      1.5;  // a waist so much wider than the foot is of branches that hang down beside it
+  TrunkMeasures trunk{.width_px = width_near_foot_px(mask, box),
+                      .foot_width_px = longest_run_px(mask, box.bottom - 1),
+                      .stems = runs_in_row(mask, foot_row(box))};
+  trunk.bare_px = bare_height_px(mask, box, trunk.width_px);
+  const std::optional<Waist> waist = waist_of(mask, box);
+  if (waist && waist->width_px < kTwigs * trunk.width_px) {
+    trunk.width_px = waist->width_px;
+    trunk.bare_px = waist->rows;
+  }
+  return trunk;
+}
+
+}  // namespace espalier

@@ -1,0 +1,62 @@
+// The trunk in pictures that are drawn here, row by row.
+#include "fitting/stages/trunk_measures.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace espalier {
+namespace {
+
+/// 100 rows, each as wide as the function of its height above the ground says, centred; odd widths.
+Mask tree_of_rows(const std::function<int(int)>& width_px) {
+  Mask mask(128, 110);
+  for (int height = 0; height < 100; ++height) {
+    const int half = width_px(height) / 2;
+    for (int x = 64 - half; x <= 64 + half; ++x) mask.set(x, 105 - height);
+  }
+  return mask;
+}
+
+TrunkMeasures measures_of(const Mask& mask) { return measure_trunk(mask, box_of(mask)); }
+
+TEST(TrunkMeasures, ATrunkBelowACrown) {
+  const TrunkMeasures trunk = measures_of(tree_of_rows([](int h) { return h < 30 ? 9 : 51; }));
+  EXPECT_EQ(trunk.width_px, 9);
+  EXPECT_EQ(trunk.bare_px, 30);
+  EXPECT_EQ(trunk.foot_width_px, 9);
+  EXPECT_EQ(trunk.stems, 1);
+}
+
+TEST(TrunkMeasures, AMoundIsNoTrunk) {
+  const auto width_px = [](int h) { return h < 3 ? 15 : h < 12 ? 31 : h < 30 ? 9 : 51; };
+  const TrunkMeasures trunk = measures_of(tree_of_rows(width_px));
+  EXPECT_EQ(trunk.width_px, 9);
+  EXPECT_EQ(trunk.bare_px, 30);
+}
+
+TEST(TrunkMeasures, AFlaredTrunkIsMeasuredAboveItsFlare) {
+  const TrunkMeasures trunk = measures_of(tree_of_rows([](int h) { return h < 30 ? 25 - h / 2 : 71; }));
+  EXPECT_NEAR(trunk.width_px, 22, 2) << "not where it is thinnest, below the crown";
+  EXPECT_EQ(trunk.foot_width_px, 25);
+}
+
+TEST(TrunkMeasures, ANarrowCrownBeginsHalfwayBetweenTrunkAndCrown) {
+  const TrunkMeasures trunk = measures_of(tree_of_rows([](int h) { return h < 20 ? 21 : 41; }));
+  EXPECT_EQ(trunk.bare_px, 20) << "although the crown is not 2.2 times as wide as the trunk";
+}
+
+TEST(TrunkMeasures, TiersOfAConiferAreNoWaist) {
+  const auto width_px = [](int h) { return h < 10 ? 9 : h < 40 ? 71 - h : h < 70 ? 91 - h : 101 - h; };
+  EXPECT_EQ(measures_of(tree_of_rows(width_px)).width_px, 9);
+}
+
+TEST(TrunkMeasures, TwigsThatHangDownBesideATrunkAreNoWaist) {
+  Mask mask = tree_of_rows([](int h) { return h < 25 ? 5 : 71; });
+  for (const int x : {44, 84})
+    for (int h = 6; h < 12; ++h) mask.set(x, 105 - h);
+  EXPECT_EQ(measures_of(mask).width_px, 5);
+}
+
+}  // namespace
+}  // namespace espalier
