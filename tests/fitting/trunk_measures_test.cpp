@@ -47,14 +47,14 @@ TEST(TrunkMeasures, ANarrowCrownBeginsHalfwayBetweenTrunkAndCrown) {
 }
 
 TEST(TrunkMeasures, TiersOfAConiferAreNoWaist) {
-  const auto width_px = [](int h) { return h < 10 ? 9 : h < 40 ? 71 - h : h < 70 ? 91 - h : 101 - h; };
-  EXPECT_EQ(measures_of(tree_of_rows(width_px)).width_px, 9);
+  const auto width_px = [](int h) { return h < 2 ? 15 : h < 70 ? 81 - h : 41; };
+  EXPECT_EQ(measures_of(tree_of_rows(width_px)).width_px, 15) << "and not 12, below the highest tier";
 }
 
 TEST(TrunkMeasures, TwigsThatHangDownBesideATrunkAreNoWaist) {
-  Mask mask = tree_of_rows([](int h) { return h < 25 ? 5 : 71; });
-  for (const int x : {44, 84})
-    for (int h = 6; h < 12; ++h) mask.set(x, 105 - h);
+  Mask mask = tree_of_rows([](int h) { return h < 25 ? 5 : 101; });
+  for (int h = 3; h < 25; ++h)
+    for (const int beside : {-1, 1}) mask.set(64 + beside * (h < 7 ? 48 : 20), 105 - h);
   EXPECT_EQ(measures_of(mask).width_px, 5);
 }
 
