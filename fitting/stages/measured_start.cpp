@@ -14,6 +14,12 @@ bool shows_trunk(const PictureReading& reading) {
   return reading.crown_base >= kBareTrunk && reading.trunk_width < kWidestTrunk * reading.crown_width;
 }
 
+/// From where branches may grow: mounds and pots, which are in the picture, are filled with them too.
+double lowest_base(const PictureReading& reading) {
+  const bool stands_on_ground = reading.stand_height <= 0;
+  return shows_trunk(reading) && stands_on_ground ? std::min(0.8 * reading.crown_base, 0.5) : 0;
+}
+
 /// By how much of its radius the trunk widens at the ground.
 double seen_flare(const PictureReading& reading) {
   return std::clamp(reading.foot_width / reading.trunk_width - 1, 0.0, 2.0);
@@ -67,7 +73,7 @@ std::map<std::string, SearchRange> measured_ranges(const PictureReading& reading
     constexpr double kLongestLeaf = 0.035;  // of the height: longer ones fill crowns as blobs
     ranges["leaf_scale"] = {0.003 * height_m, kLongestLeaf * height_m};
     ranges["leaf_blos_num"] = {8, 120};
-    const double base = shows_trunk(reading) ? std::min(0.8 * reading.crown_base, 0.5) : 0;
+    const double base = lowest_base(reading);
     ranges["base_size[0]"] = {base, std::max(0.6, base + 0.2)};
     ranges["length[1]"] = {0.05, 0.9};
     ranges["length[2]"] = {0.05, 0.7};

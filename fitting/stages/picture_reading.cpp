@@ -52,6 +52,7 @@ PictureReading read_picture(const Mask& mask) {
   reading.height_px = box.height();
   reading.trunk_width = trunk.width_px / height;
   reading.foot_width = trunk.foot_width_px / height;
+  reading.stand_height = trunk.stand_px / height;
   reading.crown_base = trunk.bare_px / height;
   reading.crown_width = box.width() / height;
   reading.trunks = trunk.stems;

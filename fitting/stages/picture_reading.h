@@ -14,6 +14,7 @@ struct PictureReading {
   int height_px = 0;
   double trunk_width = 0;      ///< a little above the foot, or above what the trunk stands on
   double foot_width = 0;       ///< of the lowest row: where the trunk flares
+  double stand_height = 0;     ///< of a mound or a pot under the trunk; 0 for the ground
   double crown_base = 0;       ///< height at which the outline becomes wider than a trunk
   double crown_width = 0;      ///< of the whole tree
   double cover = 0;            ///< set share of the filled outline: 1 - porosity

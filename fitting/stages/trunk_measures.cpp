@@ -71,7 +71,8 @@ int bare_height_px(const Mask& mask, const MaskBox& box, int trunk_px) {
 
 struct Waist {
   int width_px = 0;
-  int rows = 0;  ///< from the foot up to the crown above it
+  int rows_below = 0;  ///< from the foot up to it
+  int rows = 0;        ///< from the foot up to the crown above it
 };
 
 /// The narrowest row between the foot and the crown, if what is below it bulges: a mound, a pot or a stand,
@@ -80,7 +81,7 @@ std::optional<Waist> waist_of(const Mask& mask, const MaskBox& box) {
   constexpr double kHighest = 0.5;  // of the height: above it are gaps between tiers, and tips
   constexpr double kBulge = 1.2;    // of the width at the ground
   const int ground_px = longest_run_px(mask, box.bottom - 1);
-  Waist waist{mask.width_px(), 0};
+  Waist waist{.width_px = mask.width_px()};
   int widest_below_px = 0, widest_px = 0;
   for (; waist.rows < kHighest * box.height(); ++waist.rows) {
     const int width_px = extent_px(mask, box.bottom - 1 - waist.rows);
@@ -93,6 +94,7 @@ std::optional<Waist> waist_of(const Mask& mask, const MaskBox& box) {
     widest_px = std::max(widest_px, width_px);
     if (is_above_foot && width_px > 0 && width_px < waist.width_px) {
       waist.width_px = width_px;
+      waist.rows_below = waist.rows;
       widest_below_px = widest_px;
     }
   }
@@ -112,6 +114,7 @@ TrunkMeasures measure_trunk(const Mask& mask, const MaskBox& box) {
   if (waist && waist->width_px < kTwigs * trunk.width_px) {
     trunk.width_px = waist->width_px;
     trunk.bare_px = waist->rows;
+    trunk.stand_px = waist->rows_below;
   }
   return trunk;
 }

@@ -104,5 +104,12 @@ TEST(MeasuredStart, ACrownDownToTheGroundMayBeginThere) {
   EXPECT_EQ(measured_ranges(reading, TreeKind::leafy, 10).at("base_size[0]").lower, 0);
 }
 
+TEST(MeasuredStart, AMoundUnderTheTrunkMayBeFilledByTheTree) {
+  PictureReading reading{.trunk_width = 0.1, .foot_width = 0.2, .crown_base = 0.4, .crown_width = 0.7};
+  EXPECT_GT(measured_ranges(reading, TreeKind::leafy, 10).at("base_size[0]").lower, 0);
+  reading.stand_height = 0.1;
+  EXPECT_EQ(measured_ranges(reading, TreeKind::leafy, 10).at("base_size[0]").lower, 0);
+}
+
 }  // namespace
 }  // namespace espalier

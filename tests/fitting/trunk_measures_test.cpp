@@ -26,6 +26,7 @@ TEST(TrunkMeasures, ATrunkBelowACrown) {
   EXPECT_EQ(trunk.bare_px, 30);
   EXPECT_EQ(trunk.foot_width_px, 9);
   EXPECT_EQ(trunk.stems, 1);
+  EXPECT_EQ(trunk.stand_px, 0);
 }
 
 TEST(TrunkMeasures, AMoundIsNoTrunk) {
@@ -33,6 +34,7 @@ TEST(TrunkMeasures, AMoundIsNoTrunk) {
   const TrunkMeasures trunk = measures_of(tree_of_rows(width_px));
   EXPECT_EQ(trunk.width_px, 9);
   EXPECT_EQ(trunk.bare_px, 30);
+  EXPECT_NEAR(trunk.stand_px, 12, 1);
 }
 
 TEST(TrunkMeasures, AFlaredTrunkIsMeasuredAboveItsFlare) {
