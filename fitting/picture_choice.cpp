@@ -4,6 +4,7 @@
 #include "fitting/stages/measured_start.h"
 #include "fitting/stages/palm_trunk.h"
 #include "fitting/stages/picture_reading.h"
+#include "image/roots.h"
 
 namespace espalier {
 
@@ -27,7 +28,7 @@ std::optional<TrunkLine> held_trunk(const FitRecord& record, const FitTask& task
   if (!is_left_to_us || kind_of(record, task) != kind_name(TreeKind::palm) ||
       task.model->table().model != FitRecord{}.model)
     return std::nullopt;
-  return read_trunk_line(task.views.front().target.mask());
+  return read_trunk_line(without_roots(task.views.front().target.mask()));
 }
 
 /// Fronds stay as long as they are while the trunk gets another length.

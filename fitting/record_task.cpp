@@ -44,7 +44,7 @@ void read_views(FitRecord& record, FitTask& task) {
 void grow_into_pictures(const FitRecord& record, FitTask& task) {
   std::vector<PictureOutline> outlines;
   for (const TargetView& view : task.views)
-    outlines.push_back({view.camera, room_to_grow(view.target.outline())});
+    outlines.push_back({view.camera, room_to_grow(view.target.outline(), view.target.mask())});
   task.envelope = make_picture_envelope(std::move(outlines));
   if (!leaves_room_for_trunk(*task.envelope, target_height_m(record))) {
     task.envelope.reset();

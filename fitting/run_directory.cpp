@@ -71,8 +71,10 @@ std::string archived_to_toml(const RunState& state, std::size_t index) {
 
 /// The outlines that trained trees are grown into.
 void write_outlines(const fs::path& directory, const RunState& state) {
-  for (std::size_t i = 0; i < state.task.views.size() && state.task.growth.train; ++i)
-    write_mask_png(numbered(directory, "outline", i), room_to_grow(state.task.views[i].target.outline()));
+  for (std::size_t i = 0; i < state.task.views.size() && state.task.growth.train; ++i) {
+    const auto& target = state.task.views[i].target;
+    write_mask_png(numbered(directory, "outline", i), room_to_grow(target.outline(), target.mask()));
+  }
 }
 
 /// archive/1.toml and so on, the best first; what an earlier state left there goes.

@@ -8,6 +8,7 @@
 #include "fitting/stages/branch_laying.h"
 #include "fitting/stages/branch_refinement.h"
 #include "image/medial_axes.h"
+#include "image/roots.h"
 
 namespace espalier {
 
@@ -111,7 +112,7 @@ Solution trace_branches(const FitTask& task, const TracingSettings& settings, co
   if (!task.model->has_branch_paths() || !task.model->can_change(Quantity::seed)) return start;
   const Mask& mask = task.views[0].target.mask();
   const auto shortest_px = static_cast<float>(settings.shortest * mask.height_px());
-  const std::vector<MedialAxis> axes = medial_axes(mask, shortest_px);
+  const std::vector<MedialAxis> axes = medial_axes(without_roots(mask), shortest_px);
   if (axes.empty()) return start;
   Solution traced{start.values, start.plant_seed, {}, 1};
   if (!make_plain(task.model->table(), axes, task.views[0].metres_per_px, traced.values)) return start;

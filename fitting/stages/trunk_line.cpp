@@ -4,27 +4,11 @@
 #include <cmath>
 
 #include "image/morphology.h"
+#include "image/row_runs.h"
 
 namespace espalier {
 
 namespace {
-
-/// A run of set pixels in a row; `last` is inclusive.
-struct Run {
-  int first = 0, last = -1;
-  int width() const { return last - first + 1; }
-  float middle() const { return 0.5f * static_cast<float>(first + last + 1); }
-};
-
-std::vector<Run> runs_of(const Mask& mask, int y) {
-  std::vector<Run> runs;
-  for (int x = 0; x < mask.width_px(); ++x) {
-    if (!mask.get(x, y)) continue;
-    if (runs.empty() || runs.back().last != x - 1) runs.push_back({x, x - 1});
-    runs.back().last = x;
-  }
-  return runs;
-}
 
 bool is_narrower(const Run& a, const Run& b) { return a.width() < b.width(); }
 
@@ -32,8 +16,7 @@ bool is_narrower(const Run& a, const Run& b) { return a.width() < b.width(); }
 std::optional<Run> run_above(const Mask& mask, int y, const Run& below) {
   std::optional<Run> widest;
   for (const Run& run : runs_of(mask, y)) {
-    const bool touches = run.first <= below.last + 1 && run.last >= below.first - 1;
-    if (touches && (!widest || is_narrower(*widest, run))) widest = run;
+    if (run.touches(below) && (!widest || is_narrower(*widest, run))) widest = run;
   }
   return widest;
 }
@@ -53,8 +36,7 @@ float median_width(std::vector<Run> runs) {
 /// The bare trunk's runs from the foot up, until one is half as wide again as the trunk was so far.
 std::vector<Run> bare_trunk(const Mask& mask, int foot) {
   constexpr float kCrown = 1.5f;
-  const std::vector<Run> at_foot = runs_of(mask, foot);
-  std::vector<Run> trunk{*std::max_element(at_foot.begin(), at_foot.end(), is_narrower)};
+  std::vector<Run> trunk{widest_run(mask, foot)};
   for (int y = foot - 1; y >= 0; --y) {
     const std::optional<Run> run = run_above(mask, y, trunk.back());
     if (!run || static_cast<float>(run->width()) > kCrown * median_width(trunk) + 1) break;

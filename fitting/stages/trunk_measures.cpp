@@ -4,6 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "image/roots.h"
+#include "image/row_runs.h"
+
 namespace espalier {
 
 namespace {
@@ -26,30 +29,14 @@ int extent_px(const Mask& mask, int y) {
   return last - first + 1;
 }
 
-int runs_in_row(const Mask& mask, int y) {
-  int runs = 0;
-  for (int x = 0; x < mask.width_px(); ++x)
-    if (mask.get(x, y) && (x == 0 || !mask.get(x - 1, y))) ++runs;
-  return runs;
-}
-
-int longest_run_px(const Mask& mask, int y) {
-  int longest = 0, run = 0;
-  for (int x = 0; x < mask.width_px(); ++x) {
-    run = mask.get(x, y) ? run + 1 : 0;
-    longest = std::max(longest, run);
-  }
-  return longest;
-}
-
 /// The row a little above the foot, where roots and grass no longer show.
 int foot_row(const MaskBox& box) { return std::max(box.top, box.bottom - 1 - rows_of_height(box, 0.03)); }
 
 /// The narrowest row near the foot: above roots and grass, and between twigs that hang down to them.
 int width_near_foot_px(const Mask& mask, const MaskBox& box) {
-  int narrowest = longest_run_px(mask, foot_row(box));
+  int narrowest = widest_run(mask, foot_row(box)).width();
   const int top = std::max(box.top, box.bottom - 1 - rows_of_height(box, kFoot));
-  for (int y = top; y < box.bottom - 1; ++y) narrowest = std::min(narrowest, longest_run_px(mask, y));
+  for (int y = top; y < box.bottom - 1; ++y) narrowest = std::min(narrowest, widest_run(mask, y).width());
   return std::max(narrowest, 1);
 }
 
@@ -80,7 +67,7 @@ struct Waist {
 std::optional<Waist> waist_of(const Mask& mask, const MaskBox& box) {
   constexpr double kHighest = 0.5;  // of the height: above it are gaps between tiers, and tips
   constexpr double kBulge = 1.2;    // of the width at the ground
-  const int ground_px = longest_run_px(mask, box.bottom - 1);
+  const int ground_px = widest_run(mask, box.bottom - 1).width();
   Waist waist{.width_px = mask.width_px()};
   int widest_below_px = 0, widest_px = 0;
   for (; waist.rows < kHighest * box.height(); ++waist.rows) {
@@ -101,14 +88,22 @@ std::optional<Waist> waist_of(const Mask& mask, const MaskBox& box) {
   return std::nullopt;
 }
 
+TrunkMeasures measure_above_roots(const Mask& mask, const MaskBox& box, const Roots& roots) {
+  return {.width_px = roots.trunk.width(),
+          .bare_px = bare_height_px(mask, box, roots.trunk.width()),
+          .foot_width_px = roots.width_px,
+          .stems = 1};
+}
+
 }  // namespace
 
 TrunkMeasures measure_trunk(const Mask& mask, const MaskBox& box) {
   constexpr double kTwigs =
       1.5;  // a waist so much wider than the foot is of branches that hang down beside it
+  if (const std::optional<Roots> roots = roots_of(mask, box)) return measure_above_roots(mask, box, *roots);
   TrunkMeasures trunk{.width_px = width_near_foot_px(mask, box),
-                      .foot_width_px = longest_run_px(mask, box.bottom - 1),
-                      .stems = runs_in_row(mask, foot_row(box))};
+                      .foot_width_px = widest_run(mask, box.bottom - 1).width(),
+                      .stems = static_cast<int>(runs_of(mask, foot_row(box)).size())};
   trunk.bare_px = bare_height_px(mask, box, trunk.width_px);
   const std::optional<Waist> waist = waist_of(mask, box);
   if (waist && waist->width_px < kTwigs * trunk.width_px) {

@@ -20,13 +20,18 @@ struct TargetPaths {
   bool all_trees = false;
 };
 
+std::string stand_in_words(const PictureReading& reading) {
+  if (reading.stand_height <= 0) return "";
+  return fmt::format(", on a mound, pot or stand {:.2f} high", reading.stand_height);
+}
+
 /// What a fit reads off the mask before it grows anything.
 std::string reading_in_words(const PictureReading& reading) {
   return fmt::format(
-      "a {} tree: trunk {:.3f} wide, foot {:.3f}, crown {:.2f} wide from {:.2f} up (shares of its height); "
+      "a {} tree{}: trunk {:.3f} wide, foot {:.3f}, crown {:.2f} wide from {:.2f} up (shares of its height); "
       "{:.0f} % of its outline and {:.0f} % of its convex hull covered; {} at the foot",
-      kind_name(reading.kind), reading.trunk_width, reading.foot_width, reading.crown_width,
-      reading.crown_base, 100 * reading.cover, 100 * reading.hull_cover,
+      kind_name(reading.kind), stand_in_words(reading), reading.trunk_width, reading.foot_width,
+      reading.crown_width, reading.crown_base, 100 * reading.cover, 100 * reading.hull_cover,
       reading.trunks == 1 ? "1 trunk" : fmt::format("{} trunks", reading.trunks));
 }
 

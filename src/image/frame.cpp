@@ -2,37 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/error.h"
+#include "image/mask_box.h"
 #include "image/read_target.h"
+#include "image/roots.h"
 
 namespace espalier {
 
 namespace {
 
-/// The box of the set pixels, ends exclusive, and the middle of the tree's foot; in source pixels.
-struct Extent {
-  int left = 0, right = 0, top = 0, bottom = 0;
-  double foot_x = 0;
+/// Where the tree stands, in source pixels.
+struct Foot {
+  double x = 0, y = 0;
 };
 
-Extent bounding_box(const Mask& mask) {
-  Extent box{mask.width_px(), 0, mask.height_px(), 0, 0};
-  for (int y = 0; y < mask.height_px(); ++y)
-    for (int x = 0; x < mask.width_px(); ++x) {
-      if (!mask.get(x, y)) continue;
-      box.left = std::min(box.left, x);
-      box.right = std::max(box.right, x + 1);
-      box.top = std::min(box.top, y);
-      box.bottom = y + 1;
-    }
-  return box;
-}
-
-/// The mean x of the set pixels in the lowest 2 % of the tree's rows.
-double find_foot_x(const Mask& mask, const Extent& box) {
-  const int foot_rows = std::max(1, static_cast<int>(std::lround(0.02 * (box.bottom - box.top))));
+/// The middle of the trunk above its roots, or the mean x of the set pixels in the lowest 2 % of the tree's
+/// rows.
+double find_foot_x(const Mask& mask, const MaskBox& box) {
+  if (const std::optional<Roots> roots = roots_of(mask, box))
+    return static_cast<double>(roots->trunk.middle());
+  const int foot_rows = std::max(1, static_cast<int>(std::lround(0.02 * box.height())));
   double sum = 0, count = 0;
   for (int y = box.bottom - foot_rows; y < box.bottom; ++y)
     for (int x = box.left; x < box.right; ++x)
@@ -81,22 +73,21 @@ class AreaTable {
   std::vector<std::uint32_t> sums_;
 };
 
-double framing_scale(const Extent& box, int size_px) {
-  const double height = box.bottom - box.top;
-  const double half_width = std::max({box.foot_x - box.left, box.right - box.foot_x, 0.5});
-  return size_px * std::min(kFramedHeight / height, kFramedHalfWidth / half_width);
+double framing_scale(const MaskBox& box, double foot_x, int size_px) {
+  const double half_width = std::max({foot_x - box.left, box.right - foot_x, 0.5});
+  return size_px * std::min(kFramedHeight / static_cast<double>(box.height()), kFramedHalfWidth / half_width);
 }
 
 /// Sets the pixels of which the tree covers at least half. A footprint smaller than a source pixel is
 /// widened to one, which rounds the steps of an enlarged mask.
-Mask resample(const Mask& source, const Extent& box, double scale, int size_px) {
+Mask resample(const Mask& source, const Foot& foot, double scale, int size_px) {
   const AreaTable table(source);
   const double half = std::max(0.5, 0.5 / scale);
   Mask mask(size_px, size_px);
   for (int y = 0; y < size_px; ++y) {
-    const double source_y = box.bottom + (y + 0.5 - base_row_px(size_px)) / scale;
+    const double source_y = foot.y + (y + 0.5 - base_row_px(size_px)) / scale;
     for (int x = 0; x < size_px; ++x) {
-      const double source_x = box.foot_x + (x + 0.5 - 0.5 * size_px) / scale;
+      const double source_x = foot.x + (x + 0.5 - 0.5 * size_px) / scale;
       const double covered = table.area(source_x - half, source_y - half, source_x + half, source_y + half);
       mask.set(x, y, covered >= 0.5 * (2 * half) * (2 * half));
     }
@@ -114,15 +105,15 @@ void check_frame_size(int size_px) {
 
 TargetPicture frame_mask(const Mask& mask, int size_px, const std::string& name) {
   check_frame_size(size_px);
-  Extent box = bounding_box(mask);
-  if (box.right <= box.left) throw_input_error("{}: shows no tree: nothing is set", name);
-  box.foot_x = find_foot_x(mask, box);
-  const double scale = framing_scale(box, size_px);
+  const MaskBox box = box_of(mask);
+  if (box.is_empty()) throw_input_error("{}: shows no tree: nothing is set", name);
+  const Foot foot{find_foot_x(mask, box), static_cast<double>(box.bottom)};
+  const double scale = framing_scale(box, foot.x, size_px);
   TargetPicture target;
-  target.mask = resample(mask, box, scale, size_px);
+  target.mask = resample(mask, foot, scale, size_px);
   if (area_px(target.mask) == 0)
     throw_input_error("{}: shows no tree: it is too thin for a frame of {} pixels", name, size_px);
-  target.tree_height_px = static_cast<float>((box.bottom - box.top) * scale);
+  target.tree_height_px = static_cast<float>(box.height() * scale);
   target.frame_px_per_source_px = static_cast<float>(scale);
   target.source_width_px = mask.width_px();
   target.source_height_px = mask.height_px();

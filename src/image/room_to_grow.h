@@ -6,7 +6,7 @@
 namespace espalier {
 
 /// The outline (outline_of), and what is within 1/64 of the picture's size of its parts that are narrower
-/// than 1/32 of it.
-Mask room_to_grow(const Mask& outline);
+/// than 1/32 of it. Of a tree that stands on roots also its trunk, straight down between them.
+Mask room_to_grow(const Mask& outline, const Mask& tree);
 
 }  // namespace espalier

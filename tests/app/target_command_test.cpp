@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "image/picture.h"
 #include "image/read_target.h"
 #include "support/picture_files.h"
 #include "support/run_espalier.h"
@@ -14,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 std::string quoted(const fs::path& path) { return fmt::format("\'{}\'", path.string()); }
 
@@ -43,6 +45,19 @@ TEST_F(TargetCommand, TakesSizeMethodAndSide) {
   EXPECT_THAT(run.out, HasSubstr("luminance below"));
   EXPECT_THAT(run.out, HasSubstr("pinholes"));
   EXPECT_EQ(read_mask(folder_ / "mask.png").mask.width_px(), 64);
+}
+
+TEST_F(TargetCommand, SaysWhatATrunkStandsOn) {
+  Mask island(200, 220);
+  for (int y = 10; y < 210; ++y) {
+    const int half_px = y < 120 ? 50 : y < 180 ? 7 : y < 205 ? 30 : 15;
+    for (int x = 100 - half_px; x < 100 + half_px; ++x) island.set(x, y);
+  }
+  write_mask_png(folder_ / "island.png", island);
+  const std::string output = " -o " + quoted(folder_ / "mask.png");
+  EXPECT_THAT(run_espalier("target " + quoted(folder_ / "island.png") + output).out,
+              HasSubstr("on a mound, pot or stand 0."));
+  EXPECT_THAT(run_espalier("target " + fir_ + output).out, Not(HasSubstr("stand 0.")));
 }
 
 class TargetCommandBadPicture : public testing::TestWithParam<test::BadPicture> {};

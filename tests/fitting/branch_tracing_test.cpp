@@ -8,6 +8,7 @@
 #include "fitting/stages/reach_limit.h"
 #include "image/medial_axes.h"
 #include "image/morphology.h"
+#include "image/roots.h"
 #include "overrides/change_graph.h"
 
 namespace espalier {
@@ -20,11 +21,11 @@ FitTask task_of(const std::string& target, int size_px = 256) {
   return make_task(record);
 }
 
-Solution traced(const FitTask& task) {
+Solution traced(const FitTask& task, Seed seed = 1) {
   Solution start{.values = task.model->table().defaults()};
   start.values[task.model->table().index_of("leaf_blos_num")] = 0;
   start.score = score_of(task, start);
-  return trace_branches(task, {.key = root_key(1)}, start);
+  return trace_branches(task, {.key = root_key(seed)}, start);
 }
 
 Plant grown(const FitTask& task, const Solution& solution) {
@@ -36,9 +37,9 @@ Plant grown(const FitTask& task, const Solution& solution) {
   return plant;
 }
 
-/// Of the plant's knots, the share at most 3 pixels from the picture's wood.
+/// Of the plant's knots, the share at most 3 pixels from the picture's wood, or between its roots.
 double share_on_wood(const FitTask& task, const Plant& plant) {
-  const Mask wood = dilate_disc(task.views[0].target.mask(), 3);
+  const Mask wood = dilate_disc(without_roots(task.views[0].target.mask()), 3);
   std::size_t near = 0;
   for (const Vec3 point_m : plant.knots.point_m) {
     const PicturePoint seen = project(task.views[0].camera, point_m);
@@ -54,7 +55,7 @@ class BranchTracing : public testing::TestWithParam<const char*> {};
 TEST_P(BranchTracing, GrowsABranchForEachAxisOfThePicture) {
   const FitTask task = task_of(GetParam());
   const Plant plant = grown(task, traced(task));
-  const auto axes = medial_axes(task.views[0].target.mask(), 0.03f * 256);
+  const auto axes = medial_axes(without_roots(task.views[0].target.mask()), 0.03f * 256);
   EXPECT_GT(axes.size(), 5u);
   EXPECT_GE(plant.stems.size(), axes.size() * 3 / 4);  // parents may be too thin for the last
   EXPECT_EQ(plant.leaves.size(), 0u);
@@ -63,7 +64,7 @@ TEST_P(BranchTracing, GrowsABranchForEachAxisOfThePicture) {
 TEST_P(BranchTracing, LaysTheTrunkOnItsAxis) {
   const FitTask task = task_of(GetParam());
   const Plant plant = grown(task, traced(task));
-  const MedialAxis trunk = medial_axes(task.views[0].target.mask(), 0.03f * 256)[0];
+  const MedialAxis trunk = medial_axes(without_roots(task.views[0].target.mask()), 0.03f * 256)[0];
   std::vector<PixelPoint> line;
   for (std::size_t knot = plant.stems.first_knot[0]; knot < plant.stems.first_knot[1]; ++knot) {
     const PicturePoint seen = project(task.views[0].camera, plant.knots.point_m[knot]);
@@ -80,7 +81,8 @@ TEST_P(BranchTracing, LaysItsWoodOnThePicturesWood) {
   const FitTask task = task_of(GetParam());
   Solution start{.values = task.model->table().defaults()};
   start.values[task.model->table().index_of("leaf_blos_num")] = 0;
-  const double on_wood = share_on_wood(task, grown(task, traced(task)));
+  double on_wood = 0;  // the mean of four: a branch that cuts a corner is much of a tree of ten
+  for (const Seed seed : {1, 2, 3, 4}) on_wood += share_on_wood(task, grown(task, traced(task, seed))) / 4;
   EXPECT_GT(on_wood, 0.85);
   EXPECT_GT(on_wood, share_on_wood(task, grown(task, start)));
 }
