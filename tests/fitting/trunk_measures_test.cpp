@@ -63,7 +63,8 @@ TEST(TrunkMeasures, TwigsThatHangDownBesideATrunkAreNoWaist) {
 TEST(TrunkMeasures, ATrunkThatForksIntoRootsIsMeasuredAboveThem) {
   Mask mask = tree_of_rows([](int h) { return h < 8 ? 0 : h < 40 ? 15 : 71; });
   for (int h = 0; h < 8; ++h)
-    for (const int left : {54, 70}) for (int x = left; x < left + 5 - (h < 2 ? left / 20 : 0); ++x) mask.set(x, 105 - h);
+    for (const int left : {54, 70})
+      for (int x = left; x < left + 5 - (h < 2 ? left / 20 : 0); ++x) mask.set(x, 105 - h);
   for (int x = 54; x < 75; ++x) mask.set(x, 105 - 8);
   const TrunkMeasures trunk = measures_of(mask);
   EXPECT_EQ(trunk.width_px, 15);
