@@ -1,7 +1,6 @@
 #include "fitting/stages/trunk_measures.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "image/roots.h"
@@ -14,28 +13,13 @@ namespace {
 constexpr double kFoot = 0.06;         ///< of the height: roots, grass, twigs that hang down
 constexpr double kTrunkOrCrown = 2.2;  ///< as wide as this many trunks: no trunk that leans or flares
 
-int rows_of_height(const MaskBox& box, double share) {
-  return static_cast<int>(std::lround(share * box.height()));
-}
-
-/// Columns between the first and the last set pixel of a row.
-int extent_px(const Mask& mask, int y) {
-  int first = -1, last = -2;
-  for (int x = 0; x < mask.width_px(); ++x) {
-    if (!mask.get(x, y)) continue;
-    if (first < 0) first = x;
-    last = x;
-  }
-  return last - first + 1;
-}
-
 /// The row a little above the foot, where roots and grass no longer show.
-int foot_row(const MaskBox& box) { return std::max(box.top, box.bottom - 1 - rows_of_height(box, 0.03)); }
+int foot_row(const MaskBox& box) { return std::max(box.top, box.bottom - 1 - box.rows(0.03)); }
 
 /// The narrowest row near the foot: above roots and grass, and between twigs that hang down to them.
 int width_near_foot_px(const Mask& mask, const MaskBox& box) {
   int narrowest = widest_run(mask, foot_row(box)).width();
-  const int top = std::max(box.top, box.bottom - 1 - rows_of_height(box, kFoot));
+  const int top = std::max(box.top, box.bottom - 1 - box.rows(kFoot));
   for (int y = top; y < box.bottom - 1; ++y) narrowest = std::min(narrowest, widest_run(mask, y).width());
   return std::max(narrowest, 1);
 }
@@ -43,7 +27,7 @@ int width_near_foot_px(const Mask& mask, const MaskBox& box) {
 /// Rows from the foot up that are at most so wide.
 int rows_within(const Mask& mask, const MaskBox& box, double width_px) {
   int rows = 0;
-  while (rows < box.height() && extent_px(mask, box.bottom - 1 - rows) <= width_px) ++rows;
+  while (rows < box.height() && row_extent_px(mask, box.bottom - 1 - rows) <= width_px) ++rows;
   return rows;
 }
 
@@ -52,7 +36,7 @@ int bare_height_px(const Mask& mask, const MaskBox& box, int trunk_px) {
   const int rows = rows_within(mask, box, kTrunkOrCrown * trunk_px);
   if (rows < box.height()) return rows;
   int widest_px = 0;
-  for (int y = box.top; y < box.bottom; ++y) widest_px = std::max(widest_px, extent_px(mask, y));
+  for (int y = box.top; y < box.bottom; ++y) widest_px = std::max(widest_px, row_extent_px(mask, y));
   return rows_within(mask, box, 0.5 * (trunk_px + widest_px));
 }
 
@@ -71,8 +55,8 @@ std::optional<Waist> waist_of(const Mask& mask, const MaskBox& box) {
   Waist waist{.width_px = mask.width_px()};
   int widest_below_px = 0, widest_px = 0;
   for (; waist.rows < kHighest * box.height(); ++waist.rows) {
-    const int width_px = extent_px(mask, box.bottom - 1 - waist.rows);
-    const bool is_above_foot = waist.rows > rows_of_height(box, kFoot);
+    const int width_px = row_extent_px(mask, box.bottom - 1 - waist.rows);
+    const bool is_above_foot = waist.rows > box.rows(kFoot);
     if (is_above_foot && width_px > kTrunkOrCrown * waist.width_px) {
       const bool bulges =
           widest_below_px >= kTrunkOrCrown * waist.width_px && widest_below_px >= kBulge * ground_px;
@@ -98,8 +82,8 @@ TrunkMeasures measure_above_roots(const Mask& mask, const MaskBox& box, const Ro
 }  // namespace
 
 TrunkMeasures measure_trunk(const Mask& mask, const MaskBox& box) {
-  constexpr double kTwigs =
-      1.5;  // a waist so much wider than the foot is of branches that hang down beside it
+  // A waist so much wider than the foot is of branches that hang down beside it.
+  constexpr double kTwigs = 1.5;
   if (const std::optional<Roots> roots = roots_of(mask, box)) return measure_above_roots(mask, box, *roots);
   TrunkMeasures trunk{.width_px = width_near_foot_px(mask, box),
                       .foot_width_px = widest_run(mask, box.bottom - 1).width(),

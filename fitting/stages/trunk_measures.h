@@ -8,7 +8,7 @@ namespace espalier {
 struct TrunkMeasures {
   int width_px = 1;       ///< where it is narrowest near the foot, or above what it stands on
   int bare_px = 0;        ///< from the foot up, until the outline becomes wider than a trunk
-  int foot_width_px = 0;  ///< of the lowest row: where the trunk flares
+  int foot_width_px = 0;  ///< of the lowest row, where the trunk flares, or of its roots
   int stand_px = 0;       ///< rows of what the trunk stands on: a mound, a pot; 0 for the ground
   int stems = 0;          ///< runs of pixels a little above the foot
 };

@@ -1,7 +1,6 @@
 #include "image/frame.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -24,7 +23,7 @@ struct Foot {
 double find_foot_x(const Mask& mask, const MaskBox& box) {
   if (const std::optional<Roots> roots = roots_of(mask, box))
     return static_cast<double>(roots->trunk.middle());
-  const int foot_rows = std::max(1, static_cast<int>(std::lround(0.02 * box.height())));
+  const int foot_rows = std::max(1, box.rows(0.02));
   double sum = 0, count = 0;
   for (int y = box.bottom - foot_rows; y < box.bottom; ++y)
     for (int x = box.left; x < box.right; ++x)

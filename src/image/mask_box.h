@@ -1,5 +1,7 @@
 // The smallest box of pixels that holds all that is set in a mask.
 #pragma once
+#include <cmath>
+
 #include "image/mask.h"
 
 namespace espalier {
@@ -10,6 +12,8 @@ struct MaskBox {
 
   int width() const { return right - left; }
   int height() const { return bottom - top; }
+  /// As many rows as this share of its height, rounded.
+  int rows(double share) const { return static_cast<int>(std::lround(share * height())); }
   bool is_empty() const { return width() <= 0 || height() <= 0; }
 };
 

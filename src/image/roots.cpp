@@ -1,7 +1,6 @@
 #include "image/roots.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "image/morphology.h"
 
@@ -15,10 +14,6 @@ constexpr double kTrunk = 0.1;         ///< of the height, above the fork: where
 constexpr double kWidestTrunk = 0.4;   ///< of the tree's width
 constexpr double kFlare = 2.2;         ///< roots that spread wider, in trunks, are branches that hang down
 constexpr double kFoot = 0.2;          ///< of the trunk's width: thinner ones are twigs
-
-int rows_of_height(const MaskBox& box, double share) {
-  return static_cast<int>(std::lround(share * box.height()));
-}
 
 /// The run that joins feet of the row below it, and them alone.
 std::optional<Run> joint_above(const Mask& mask, int y) {
@@ -42,16 +37,6 @@ Run narrowest_above(const Mask& mask, Run run, int y, int end_row) {
   return narrowest;
 }
 
-int extent_px(const Mask& mask, int first, int end) {
-  int left = mask.width_px(), right = 0;
-  for (int y = first; y < end; ++y)
-    for (const Run& run : runs_of(mask, y)) {
-      left = std::min(left, run.first);
-      right = std::max(right, run.last + 1);
-    }
-  return right - left;
-}
-
 /// At least two, at the fork.
 bool has_feet(const Mask& mask, const Roots& roots) {
   return std::ranges::count_if(runs_of(mask, roots.fork_row), [&](const Run& foot) {
@@ -70,11 +55,11 @@ bool is_trunk(const Mask& mask, const MaskBox& box, const Roots& roots, int end_
 
 std::optional<Roots> roots_of(const Mask& mask_with_holes, const MaskBox& box) {
   const Mask mask = fill_holes(mask_with_holes);  // between roots the background shows
-  const int highest = std::max(box.top + 1, box.bottom - rows_of_height(box, kHighestFork));
-  for (int y = highest; y < box.bottom - rows_of_height(box, kLowestFork); ++y) {
+  const int highest = std::max(box.top + 1, box.bottom - box.rows(kHighestFork));
+  for (int y = highest; y < box.bottom - box.rows(kLowestFork); ++y) {
     const std::optional<Run> joint = joint_above(mask, y);
     if (!joint) continue;
-    const int end_row = std::max(box.top, y - rows_of_height(box, kTrunk));
+    const int end_row = std::max(box.top, y - box.rows(kTrunk));
     const Roots roots{y, narrowest_above(mask, *joint, y - 1, end_row), extent_px(mask, y, box.bottom)};
     if (is_trunk(mask, box, roots, end_row) && has_feet(mask, roots)) return roots;
   }

@@ -21,4 +21,14 @@ Run widest_run(const Mask& mask, int y) {
   return widest == runs.end() ? Run{} : *widest;
 }
 
+int extent_px(const Mask& mask, int first, int end) {
+  int left = mask.width_px(), right = 0;
+  for (int y = first; y < end; ++y)
+    for (const Run& run : runs_of(mask, y)) {
+      left = std::min(left, run.first);
+      right = std::max(right, run.last + 1);
+    }
+  return std::max(0, right - left);
+}
+
 }  // namespace espalier

@@ -22,4 +22,9 @@ std::vector<Run> runs_of(const Mask& mask, int y);
 /// The first of the widest; of no width in an empty row.
 Run widest_run(const Mask& mask, int y);
 
+/// Columns from the first to the last set pixel of the rows from `first` to before `end`; 0 where none is
+/// set.
+int extent_px(const Mask& mask, int first, int end);
+inline int row_extent_px(const Mask& mask, int y) { return extent_px(mask, y, y + 1); }
+
 }  // namespace espalier
