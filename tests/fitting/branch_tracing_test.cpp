@@ -81,8 +81,14 @@ TEST_P(BranchTracing, LaysItsWoodOnThePicturesWood) {
   const FitTask task = task_of(GetParam());
   Solution start{.values = task.model->table().defaults()};
   start.values[task.model->table().index_of("leaf_blos_num")] = 0;
-  double on_wood = 0;  // the mean of four: a branch that cuts a corner is much of a tree of ten
-  for (const Seed seed : {1, 2, 3, 4}) on_wood += share_on_wood(task, grown(task, traced(task, seed))) / 4;
+  const Mask& mask = task.views[0].target.mask();
+  const double first = share_on_wood(task, grown(task, traced(task)));
+  if (!roots_of(mask, box_of(mask))) {
+    EXPECT_GT(first, 0.85);
+  }
+  // On roots one seed may fail: oc_rpg11's first lays a limb across a corner and has .827.
+  double on_wood = first / 4;
+  for (const Seed seed : {2, 3, 4}) on_wood += share_on_wood(task, grown(task, traced(task, seed))) / 4;
   EXPECT_GT(on_wood, 0.85);
   EXPECT_GT(on_wood, share_on_wood(task, grown(task, start)));
 }
