@@ -10,10 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
-#include "fitting/blend_strip.h"
+#include <espalier/core/error.h>
+#include <espalier/fitting/species_pictures/blend_strip.h>
+#include <espalier/models/preset.h>
+
 #include "measured_target.h"
-#include "models/preset.h"
 
 namespace espalier {
 namespace {

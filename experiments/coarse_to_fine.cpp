@@ -8,9 +8,10 @@
 #include <limits>
 #include <memory>
 
-#include "core/error.h"
-#include "fitting/fit_objective.h"
-#include "fitting/plant_scorer.h"
+#include <espalier/core/error.h>
+#include <espalier/fitting/search/fit_objective.h>
+#include <espalier/fitting/task/plant_scorer.h>
+
 #include "measured_target.h"
 
 namespace espalier {

@@ -9,11 +9,12 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/error.h"
-#include "fitting/fit_objective.h"
-#include "fitting/optimizers/draws.h"
-#include "fitting/plant_scorer.h"
-#include "fitting/rank_correlation.h"
+#include <espalier/core/error.h>
+#include <espalier/fitting/certainty/rank_correlation.h>
+#include <espalier/fitting/optimizers/draws.h>
+#include <espalier/fitting/search/fit_objective.h>
+#include <espalier/fitting/task/plant_scorer.h>
+
 #include "measured_target.h"
 
 namespace espalier {

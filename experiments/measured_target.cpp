@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/error.h"
-#include "fitting/fit_record.h"
-#include "image/picture.h"
-#include "models/models.h"
-#include "models/preset.h"
+#include <espalier/core/error.h>
+#include <espalier/fitting/task/fit_record.h>
+#include <espalier/image/pictures/picture.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+#include <espalier/render/scanlines/scanline_renderer.h>
 
 namespace espalier {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "fitting/fit_task.h"
-#include "fitting/scorer.h"
-#include "fitting/start_points.h"
+#include <espalier/fitting/starts/start_points.h>
+#include <espalier/fitting/task/fit_task.h>
+#include <espalier/fitting/task/scorer.h>
 
 namespace espalier {
 

@@ -1,15 +1,14 @@
-#include "experiments/analysis/check.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "core/error.h"
-#include "core/toml_section.h"
-#include "experiments/runner/csv.h"
-#include "experiments/statistics/quantiles.h"
+#include <espalier/core/error.h>
+#include <espalier/core/toml_section.h>
+#include <espalier/experiments/analysis/check.h>
+#include <espalier/experiments/runner/csv.h>
+#include <espalier/experiments/statistics/quantiles.h>
 
 namespace espalier {
 

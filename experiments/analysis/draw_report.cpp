@@ -1,5 +1,3 @@
-#include "experiments/analysis/draw_report.h"
-
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -7,7 +5,9 @@
 #include <cstdio>
 #include <vector>
 
-#include "core/error.h"
+#include <espalier/core/data_path.h>
+#include <espalier/core/error.h>
+#include <espalier/experiments/analysis/draw_report.h>
 
 extern char** environ;
 
@@ -38,7 +38,7 @@ int run_program_file(std::vector<std::string> arguments) {
 }  // namespace
 
 void draw_report(const fs::path& report_directory) {
-  const fs::path script = fs::path(ESPALIER_DATA_DIR) / "experiments/report/report.py";
+  const fs::path script = data_path("experiments/report/report.py");
   const int code = run_program_file({find_python(), script, report_directory});
   if (code == -1 || code == 127)
     fmt::print(stderr,

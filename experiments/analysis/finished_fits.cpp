@@ -1,11 +1,10 @@
-#include "experiments/analysis/finished_fits.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "experiments/runner/csv.h"
-#include "experiments/runner/experiment_directory.h"
+#include <espalier/experiments/analysis/finished_fits.h>
+#include <espalier/experiments/runner/csv.h>
+#include <espalier/experiments/runner/experiment_directory.h>
 
 namespace espalier {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/statistics/curves.h"
+#include <espalier/experiments/statistics/curves.h>
 
 namespace espalier {
 

@@ -1,15 +1,14 @@
-#include "experiments/analysis/fit_tables.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "experiments/runner/plan.h"
-#include "experiments/statistics/data_profile.h"
-#include "experiments/statistics/quantiles.h"
-#include "experiments/statistics/ranks.h"
+#include <espalier/experiments/analysis/fit_tables.h>
+#include <espalier/experiments/runner/plan.h>
+#include <espalier/experiments/statistics/data_profile.h>
+#include <espalier/experiments/statistics/quantiles.h>
+#include <espalier/experiments/statistics/ranks.h>
 
 namespace espalier {
 

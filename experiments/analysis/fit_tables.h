@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/analysis/finished_fits.h"
-#include "experiments/runner/csv.h"
+#include <espalier/experiments/analysis/finished_fits.h>
+#include <espalier/experiments/runner/csv.h>
 
 namespace espalier {
 

@@ -1,11 +1,10 @@
-#include "experiments/analysis/growth_tables.h"
-
 #include <fmt/format.h>
 
-#include "experiments/runner/experiment_directory.h"
-#include "experiments/runner/plan.h"
-#include "experiments/statistics/power_law.h"
-#include "experiments/statistics/quantiles.h"
+#include <espalier/experiments/analysis/growth_tables.h>
+#include <espalier/experiments/runner/experiment_directory.h>
+#include <espalier/experiments/runner/plan.h>
+#include <espalier/experiments/statistics/power_law.h>
+#include <espalier/experiments/statistics/quantiles.h>
 
 namespace espalier {
 

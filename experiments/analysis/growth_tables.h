@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "experiments/runner/csv.h"
+#include <espalier/experiments/runner/csv.h>
 
 namespace espalier {
 

@@ -1,18 +1,17 @@
-#include "experiments/analysis/report.h"
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "core/files.h"
-#include "experiments/analysis/draw_report.h"
-#include "experiments/analysis/fit_tables.h"
-#include "experiments/analysis/growth_tables.h"
-#include "experiments/analysis/score_sheet.h"
-#include "experiments/analysis/start_picture.h"
-#include "experiments/runner/experiment.h"
-#include "experiments/runner/experiment_directory.h"
-#include "image/picture.h"
+#include <espalier/core/error.h>
+#include <espalier/core/files.h>
+#include <espalier/experiments/analysis/draw_report.h>
+#include <espalier/experiments/analysis/fit_tables.h>
+#include <espalier/experiments/analysis/growth_tables.h>
+#include <espalier/experiments/analysis/report.h>
+#include <espalier/experiments/analysis/score_sheet.h>
+#include <espalier/experiments/analysis/start_picture.h>
+#include <espalier/experiments/runner/experiment.h>
+#include <espalier/experiments/runner/experiment_directory.h>
+#include <espalier/image/pictures/picture.h>
 
 namespace espalier {
 

@@ -1,18 +1,17 @@
-#include "experiments/analysis/score_sheet.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
 
-#include "core/error.h"
-#include "core/files.h"
-#include "experiments/analysis/tree_picture.h"
-#include "experiments/runner/experiment_directory.h"
-#include "experiments/runner/plan.h"
-#include "image/compare.h"
-#include "image/read_target.h"
+#include <espalier/core/error.h>
+#include <espalier/core/files.h>
+#include <espalier/experiments/analysis/score_sheet.h>
+#include <espalier/experiments/analysis/tree_picture.h>
+#include <espalier/experiments/runner/experiment_directory.h>
+#include <espalier/experiments/runner/plan.h>
+#include <espalier/image/measures/compare.h>
+#include <espalier/image/reading/read_target.h>
 
 namespace espalier {
 

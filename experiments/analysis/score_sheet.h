@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "experiments/analysis/finished_fits.h"
-#include "experiments/runner/csv.h"
-#include "experiments/runner/experiment.h"
+#include <espalier/experiments/analysis/finished_fits.h>
+#include <espalier/experiments/runner/csv.h>
+#include <espalier/experiments/runner/experiment.h>
 
 namespace espalier {
 

@@ -1,13 +1,12 @@
-#include "experiments/analysis/start_picture.h"
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "core/files.h"
-#include "fitting/fit_record.h"
-#include "fitting/record_task.h"
-#include "fitting/start_points.h"
+#include <espalier/core/error.h>
+#include <espalier/core/files.h>
+#include <espalier/experiments/analysis/start_picture.h>
+#include <espalier/fitting/starts/start_points.h>
+#include <espalier/fitting/task/fit_record.h>
+#include <espalier/fitting/task/record_task.h>
 
 namespace espalier {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <filesystem>
 
-#include "image/mask.h"
+#include <espalier/image/masks/mask.h>
 
 namespace espalier {
 

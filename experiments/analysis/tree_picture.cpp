@@ -1,11 +1,10 @@
-#include "experiments/analysis/tree_picture.h"
-
-#include "core/error.h"
-#include "fitting/fit_record.h"
-#include "models/models.h"
-#include "models/preset.h"
-#include "overrides/change_graph.h"
-#include "render/shaded.h"
+#include <espalier/core/error.h>
+#include <espalier/experiments/analysis/tree_picture.h>
+#include <espalier/fitting/task/fit_record.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+#include <espalier/overrides/change_graph.h>
+#include <espalier/render/shading/shaded.h>
 
 namespace espalier {
 

@@ -3,7 +3,7 @@
 #pragma once
 #include <filesystem>
 
-#include "image/picture.h"
+#include <espalier/image/pictures/picture.h>
 
 namespace espalier {
 

@@ -1,11 +1,10 @@
-#include "experiments/runner/csv.h"
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
-#include "core/error.h"
-#include "core/files.h"
+#include <espalier/core/error.h>
+#include <espalier/core/files.h>
+#include <espalier/experiments/runner/csv.h>
 
 namespace espalier {
 

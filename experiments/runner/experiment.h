@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "fitting/fit_record.h"
+#include <espalier/fitting/task/fit_record.h>
 
 namespace espalier {
 

@@ -1,5 +1,3 @@
-#include "experiments/runner/experiment_directory.h"
-
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -8,9 +6,10 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
-#include "core/files.h"
-#include "experiments/runner/csv.h"
+#include <espalier/core/error.h>
+#include <espalier/core/files.h>
+#include <espalier/experiments/runner/csv.h>
+#include <espalier/experiments/runner/experiment_directory.h>
 
 namespace espalier {
 

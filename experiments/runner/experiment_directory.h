@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/runner/experiment.h"
-#include "experiments/runner/plan.h"
+#include <espalier/experiments/runner/experiment.h>
+#include <espalier/experiments/runner/plan.h>
 
 namespace espalier {
 

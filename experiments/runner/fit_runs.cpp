@@ -1,15 +1,15 @@
-#include "experiments/runner/fit_runs.h"
-
 #include <fmt/format.h>
 
-#include "core/error.h"
-#include "experiments/runner/unseen_trees.h"
-#include "fitting/fit.h"
-#include "fitting/record_task.h"
-#include "image/picture.h"
-#include "models/models.h"
-#include "models/preset.h"
-#include "render/silhouette.h"
+#include <espalier/core/error.h>
+#include <espalier/experiments/runner/fit_runs.h>
+#include <espalier/experiments/runner/unseen_trees.h>
+#include <espalier/fitting/run/fit.h>
+#include <espalier/fitting/task/record_task.h>
+#include <espalier/image/pictures/picture.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+#include <espalier/render/embree/embree_renderer.h>
+#include <espalier/render/silhouette.h>
 
 namespace espalier {
 

@@ -1,14 +1,13 @@
-#include "experiments/runner/growth_runs.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 
-#include "core/files.h"
-#include "experiments/runner/csv.h"
-#include "models/models.h"
-#include "models/preset.h"
+#include <espalier/core/files.h>
+#include <espalier/experiments/runner/csv.h>
+#include <espalier/experiments/runner/growth_runs.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
 
 namespace espalier {
 

@@ -1,16 +1,15 @@
-#include "experiments/runner/picture_runs.h"
-
 #include <fmt/format.h>
 
 #include <memory>
 
-#include "core/error.h"
-#include "environment/volume.h"
-#include "fitting/species_space/blend.h"
-#include "image/picture.h"
-#include "models/models.h"
-#include "models/preset.h"
-#include "render/shaded.h"
+#include <espalier/core/error.h>
+#include <espalier/environment/volume.h>
+#include <espalier/experiments/runner/picture_runs.h>
+#include <espalier/fitting/species_space/blend.h>
+#include <espalier/image/pictures/picture.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+#include <espalier/render/shading/shaded.h>
 
 namespace espalier {
 

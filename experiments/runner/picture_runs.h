@@ -1,7 +1,7 @@
 // Runs of the kind [pictures]: each grows one tree and writes one shaded picture of it.
 #pragma once
-#include "experiments/runner/experiment.h"
-#include "experiments/runner/plan.h"
+#include <espalier/experiments/runner/experiment.h>
+#include <espalier/experiments/runner/plan.h>
 
 namespace espalier {
 

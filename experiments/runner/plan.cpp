@@ -1,10 +1,10 @@
-#include "experiments/runner/plan.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <map>
+
+#include <espalier/experiments/runner/plan.h>
 
 namespace espalier {
 

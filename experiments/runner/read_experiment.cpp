@@ -4,16 +4,18 @@
 #include <set>
 #include <sstream>
 
-#include "core/error.h"
-#include "core/toml_section.h"
-#include "environment/volume.h"
-#include "experiments/runner/experiment.h"
-#include "fitting/optimizers/search_method.h"
-#include "fitting/search_space.h"
-#include "fitting/space_search.h"
-#include "image/compare.h"
-#include "models/models.h"
-#include "models/preset.h"
+#include <espalier/core/data_path.h>
+#include <espalier/core/error.h>
+#include <espalier/core/toml_section.h>
+#include <espalier/environment/volume.h>
+#include <espalier/experiments/runner/experiment.h>
+#include <espalier/fitting/optimizers/search_method.h>
+#include <espalier/fitting/search/space_search.h>
+#include <espalier/fitting/task/search_space.h>
+#include <espalier/fitting/task/species_components.h>
+#include <espalier/image/measures/compare.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
 
 namespace espalier {
 
@@ -83,12 +85,10 @@ class Element {
 
 // Targets.
 
-fs::path data_directory() { return ESPALIER_DATA_DIR; }
-
 std::vector<std::string> bundled_targets() {
   std::vector<std::string> bundled;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(data_directory() / "targets", error))
+  for (const auto& entry : fs::directory_iterator(data_path_or_first("targets"), error))
     if (entry.path().extension() == ".png") bundled.push_back(entry.path().stem());
   std::sort(bundled.begin(), bundled.end());
   return bundled;
@@ -98,7 +98,7 @@ std::vector<std::string> bundled_targets() {
 fs::path find_picture(const Element& element, const std::string& name) {
   const fs::path beside = fs::path(element.section().source).parent_path() / name;
   std::error_code error;
-  for (const fs::path& path : {data_directory() / "targets" / (name + ".png"), fs::path(name), beside})
+  for (const fs::path& path : {data_path_or_first("targets") / (name + ".png"), fs::path(name), beside})
     if (fs::is_regular_file(path, error)) return fs::absolute(path);
   throw_input_error("{}: got '{}', expected a picture or a bundled target like '{}'", element.place(), name,
                     closest_name(name, bundled_targets()));

@@ -1,5 +1,3 @@
-#include "experiments/runner/run_experiment.h"
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -8,9 +6,10 @@
 #include <numeric>
 #include <thread>
 
-#include "experiments/runner/fit_runs.h"
-#include "experiments/runner/growth_runs.h"
-#include "experiments/runner/picture_runs.h"
+#include <espalier/experiments/runner/fit_runs.h>
+#include <espalier/experiments/runner/growth_runs.h>
+#include <espalier/experiments/runner/picture_runs.h>
+#include <espalier/experiments/runner/run_experiment.h>
 
 namespace espalier {
 

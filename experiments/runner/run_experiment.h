@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "experiments/runner/experiment_directory.h"
+#include <espalier/experiments/runner/experiment_directory.h>
 
 namespace espalier {
 

@@ -1,12 +1,11 @@
-#include "experiments/runner/summary_table.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <map>
 
-#include "experiments/statistics/quantiles.h"
+#include <espalier/experiments/runner/summary_table.h>
+#include <espalier/experiments/statistics/quantiles.h>
 
 namespace espalier {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "experiments/runner/run_experiment.h"
+#include <espalier/experiments/runner/run_experiment.h>
 
 namespace espalier {
 

@@ -1,8 +1,7 @@
-#include "experiments/runner/unseen_trees.h"
-
-#include "fitting/plant_scorer.h"
-#include "fitting/record_task.h"
-#include "fitting/start_points.h"
+#include <espalier/experiments/runner/unseen_trees.h>
+#include <espalier/fitting/starts/start_points.h>
+#include <espalier/fitting/task/plant_scorer.h>
+#include <espalier/fitting/task/record_task.h>
 
 namespace espalier {
 

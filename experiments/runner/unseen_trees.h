@@ -4,8 +4,8 @@
 #pragma once
 #include <string>
 
-#include "fitting/fit_record.h"
-#include "fitting/fit_task.h"
+#include <espalier/fitting/task/fit_record.h>
+#include <espalier/fitting/task/fit_task.h>
 
 namespace espalier {
 

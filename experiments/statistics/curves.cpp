@@ -1,10 +1,9 @@
-#include "experiments/statistics/curves.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-#include "experiments/statistics/quantiles.h"
+#include <espalier/core/error.h>
+#include <espalier/experiments/statistics/curves.h>
+#include <espalier/experiments/statistics/quantiles.h>
 
 namespace espalier {
 

@@ -1,11 +1,10 @@
-#include "experiments/statistics/data_profile.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "core/error.h"
-#include "experiments/statistics/quantiles.h"
+#include <espalier/core/error.h>
+#include <espalier/experiments/statistics/data_profile.h>
+#include <espalier/experiments/statistics/quantiles.h>
 
 namespace espalier {
 

@@ -1,11 +1,10 @@
-#include "experiments/statistics/power_law.h"
-
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/experiments/statistics/power_law.h>
 
 namespace espalier {
 

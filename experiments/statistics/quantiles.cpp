@@ -1,11 +1,10 @@
-#include "experiments/statistics/quantiles.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/experiments/statistics/quantiles.h>
 
 namespace espalier {
 

@@ -1,5 +1,3 @@
-#include "experiments/statistics/ranks.h"
-
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
@@ -10,7 +8,8 @@
 #include <limits>
 #include <numeric>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/experiments/statistics/ranks.h>
 
 namespace espalier {
 

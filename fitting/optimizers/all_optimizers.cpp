@@ -1,9 +1,9 @@
 // The optimisers by name.
 #include <array>
 
-#include "core/error.h"
-#include "core/parameter_table.h"
-#include "fitting/optimizers/methods.h"
+#include <espalier/core/error.h>
+#include <espalier/core/parameter_table.h>
+#include <espalier/fitting/optimizers/methods.h>
 
 namespace espalier {
 

@@ -1,9 +1,9 @@
 // CMA-ES: strategy parameters, sampling, and the update of mean, step size, paths and covariance.
-#include "fitting/optimizers/cma_distribution.h"
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include <espalier/fitting/optimizers/cma_distribution.h>
 
 namespace espalier {
 

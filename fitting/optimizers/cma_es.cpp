@@ -6,9 +6,9 @@
 #include <cmath>
 #include <deque>
 
-#include "fitting/optimizers/cma_distribution.h"
-#include "fitting/optimizers/methods.h"
-#include "fitting/optimizers/search_method.h"
+#include <espalier/fitting/optimizers/cma_distribution.h>
+#include <espalier/fitting/optimizers/methods.h>
+#include <espalier/fitting/optimizers/search_method.h>
 
 namespace espalier {
 

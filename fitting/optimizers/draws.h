@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "core/random.h"
+#include <espalier/core/random.h>
 
 namespace espalier {
 

@@ -1,10 +1,9 @@
 // The counting, cutting, remembering and stopping that all optimisers share.
-#include "fitting/optimizers/evaluator.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/fitting/optimizers/evaluator.h>
 
 namespace espalier {
 

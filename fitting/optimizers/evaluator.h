@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "fitting/optimizer.h"
+#include <espalier/fitting/optimizers/optimizer.h>
 
 namespace espalier {
 

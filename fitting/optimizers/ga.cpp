@@ -2,9 +2,9 @@
 // rates evolve with the individuals, elitism, niching by clearing (off by default), restarts on stagnation.
 #include <algorithm>
 
-#include "fitting/optimizers/ga_operators.h"
-#include "fitting/optimizers/methods.h"
-#include "fitting/optimizers/search_method.h"
+#include <espalier/fitting/optimizers/ga_operators.h>
+#include <espalier/fitting/optimizers/methods.h>
+#include <espalier/fitting/optimizers/search_method.h>
 
 namespace espalier {
 

@@ -1,10 +1,9 @@
 // Selection, crossover and mutation of the modern genetic algorithm.
-#include "fitting/optimizers/ga_operators.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "fitting/optimizers/search_method.h"
+#include <espalier/fitting/optimizers/ga_operators.h>
+#include <espalier/fitting/optimizers/search_method.h>
 
 namespace espalier {
 

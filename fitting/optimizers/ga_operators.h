@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "fitting/optimizers/draws.h"
+#include <espalier/fitting/optimizers/draws.h>
 
 namespace espalier {
 

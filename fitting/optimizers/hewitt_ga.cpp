@@ -1,9 +1,8 @@
 // The dissertation's genetic algorithm (hewitt_ga.h). Its final choice, always to take the current best even
 // where they are worse than the last generation's, is the default; elitist = 1 is its first variant.
-#include "fitting/optimizers/hewitt_ga.h"
-
-#include "fitting/optimizers/methods.h"
-#include "fitting/optimizers/search_method.h"
+#include <espalier/fitting/optimizers/hewitt_ga.h>
+#include <espalier/fitting/optimizers/methods.h>
+#include <espalier/fitting/optimizers/search_method.h>
 
 namespace espalier {
 

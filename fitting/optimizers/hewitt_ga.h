@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "fitting/optimizer.h"
-#include "fitting/optimizers/draws.h"
+#include <espalier/fitting/optimizers/draws.h>
+#include <espalier/fitting/optimizers/optimizer.h>
 
 namespace espalier {
 

@@ -1,14 +1,14 @@
 // The exchange between the streams and the evaluating thread: one mutex, a condition for each side.
 // `running_` counts the streams that have neither asked nor finished; the one that brings it to 0 wakes the
 // evaluating thread.
-#include "fitting/optimizers/lockstep_streams.h"
-
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
+
+#include <espalier/fitting/optimizers/lockstep_streams.h>
 
 namespace espalier {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <span>
 
-#include "fitting/optimizers/evaluator.h"
+#include <espalier/fitting/optimizers/evaluator.h>
 
 namespace espalier {
 

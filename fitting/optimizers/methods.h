@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "fitting/optimizer.h"
+#include <espalier/fitting/optimizers/optimizer.h>
 
 namespace espalier {
 

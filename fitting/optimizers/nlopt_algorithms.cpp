@@ -1,9 +1,9 @@
 // The table of NLopt's algorithms, with the paper behind each.
-#include "fitting/optimizers/nlopt_algorithms.h"
-
 #include <fmt/format.h>
 
 #include <vector>
+
+#include <espalier/fitting/optimizers/nlopt_algorithms.h>
 
 namespace espalier {
 

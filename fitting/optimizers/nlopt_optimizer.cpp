@@ -6,11 +6,11 @@
 #include <memory>
 #include <optional>
 
-#include "core/error.h"
-#include "fitting/optimizers/lockstep_streams.h"
-#include "fitting/optimizers/methods.h"
-#include "fitting/optimizers/nlopt_algorithms.h"
-#include "fitting/optimizers/search_method.h"
+#include <espalier/core/error.h>
+#include <espalier/fitting/optimizers/lockstep_streams.h>
+#include <espalier/fitting/optimizers/methods.h>
+#include <espalier/fitting/optimizers/nlopt_algorithms.h>
+#include <espalier/fitting/optimizers/search_method.h>
 
 namespace espalier {
 

@@ -1,6 +1,6 @@
 // Random search: independent uniform points. The floor that every other method has to beat.
-#include "fitting/optimizers/methods.h"
-#include "fitting/optimizers/search_method.h"
+#include <espalier/fitting/optimizers/methods.h>
+#include <espalier/fitting/optimizers/search_method.h>
 
 namespace espalier {
 

@@ -1,13 +1,12 @@
 // Checks before a run, the run, and the result after it; small helpers of several methods.
-#include "fitting/optimizers/search_method.h"
-
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/fitting/optimizers/search_method.h>
 
 namespace espalier {
 

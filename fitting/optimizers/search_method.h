@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "fitting/optimizer.h"
-#include "fitting/optimizers/draws.h"
-#include "fitting/optimizers/evaluator.h"
+#include <espalier/fitting/optimizers/draws.h>
+#include <espalier/fitting/optimizers/evaluator.h>
+#include <espalier/fitting/optimizers/optimizer.h>
 
 namespace espalier {
 

@@ -3,8 +3,8 @@
 // themselves, which is what is done here. At t = 0 and t = 1 the plants come back bit for bit
 // (docs/species_space.md).
 #pragma once
-#include "fitting/species_space/encoding.h"
-#include "plant/model.h"
+#include <espalier/fitting/species_space/encoding.h>
+#include <espalier/plant/model.h>
 
 namespace espalier {
 

@@ -1,6 +1,6 @@
-#include "fitting/species_space/convex_hull.h"
-
 #include <algorithm>
+
+#include <espalier/fitting/species_space/convex_hull.h>
 
 namespace espalier {
 

@@ -1,9 +1,8 @@
-#include "fitting/species_space/encoding.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/fitting/species_space/encoding.h>
 
 namespace espalier {
 

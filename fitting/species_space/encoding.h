@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/parameter_table.h"
+#include <espalier/core/parameter_table.h>
 
 namespace espalier {
 

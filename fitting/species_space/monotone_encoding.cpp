@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "core/error.h"
-#include "fitting/species_space/encoding.h"
+#include <espalier/core/error.h>
+#include <espalier/fitting/species_space/encoding.h>
 
 namespace espalier {
 

@@ -1,9 +1,8 @@
-#include "fitting/species_space/preset_collection.h"
-
 #include <algorithm>
 #include <filesystem>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/fitting/species_space/preset_collection.h>
 
 namespace espalier {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "models/preset.h"
+#include <espalier/models/preset.h>
 
 namespace espalier {
 

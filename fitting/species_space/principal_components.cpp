@@ -1,9 +1,8 @@
-#include "fitting/species_space/principal_components.h"
-
 #include <Eigen/SVD>
 #include <cmath>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/fitting/species_space/principal_components.h>
 
 namespace espalier {
 

@@ -1,7 +1,7 @@
 // The parameter list as it is: one number a row, all of them always mean something [CH §3.3.1]. Its fault is
 // known [CH §4.4.1]: halfway between two kinds of thing lies a third that is neither.
-#include "core/error.h"
-#include "fitting/species_space/encoding.h"
+#include <espalier/core/error.h>
+#include <espalier/fitting/species_space/encoding.h>
 
 namespace espalier {
 

@@ -1,13 +1,12 @@
-#include "fitting/species_space/species_space.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <set>
 
-#include "core/error.h"
-#include "fitting/species_space/convex_hull.h"
-#include "models/models.h"
+#include <espalier/core/error.h>
+#include <espalier/fitting/species_space/convex_hull.h>
+#include <espalier/fitting/species_space/species_space.h>
+#include <espalier/models/models.h>
 
 namespace espalier {
 

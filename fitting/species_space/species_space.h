@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "fitting/species_space/encoding.h"
-#include "fitting/species_space/principal_components.h"
-#include "models/preset.h"
-#include "plant/model.h"
+#include <espalier/fitting/species_space/encoding.h>
+#include <espalier/fitting/species_space/principal_components.h>
+#include <espalier/models/preset.h>
+#include <espalier/plant/model.h>
 
 namespace espalier {
 

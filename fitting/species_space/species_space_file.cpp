@@ -1,10 +1,9 @@
-#include "fitting/species_space/species_space_file.h"
-
 #include <cmath>
 
-#include "core/error.h"
-#include "core/toml_file.h"
-#include "models/models.h"
+#include <espalier/core/error.h>
+#include <espalier/core/toml_file.h>
+#include <espalier/fitting/species_space/species_space_file.h>
+#include <espalier/models/models.h>
 
 namespace espalier {
 

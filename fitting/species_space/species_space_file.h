@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "fitting/species_space/species_space.h"
+#include <espalier/fitting/species_space/species_space.h>
 
 namespace espalier {
 

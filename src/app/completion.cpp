@@ -1,11 +1,11 @@
-#include "app/completion.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <string_view>
 #include <vector>
+
+#include <espalier/app/completion.h>
 
 namespace espalier {
 

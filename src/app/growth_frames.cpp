@@ -1,5 +1,3 @@
-#include "app/growth_frames.h"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -7,11 +5,12 @@
 #include <filesystem>
 #include <optional>
 
-#include "app/long_work.h"
-#include "core/error.h"
-#include "image/animation.h"
-#include "image/picture.h"
-#include "lsystem/plant_builder.h"
+#include <espalier/app/growth_frames.h>
+#include <espalier/app/options/long_work.h>
+#include <espalier/core/error.h>
+#include <espalier/image/pictures/animation.h>
+#include <espalier/image/pictures/picture.h>
+#include <espalier/lsystem/drawing/plant_builder.h>
 
 namespace espalier {
 

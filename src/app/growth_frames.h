@@ -3,9 +3,9 @@
 #pragma once
 #include <string>
 
-#include "app/view_options.h"
-#include "lsystem/derivation.h"
-#include "render/shaded.h"
+#include <espalier/app/options/view_options.h>
+#include <espalier/lsystem/derivation/derivation.h>
+#include <espalier/render/shading/shaded.h>
 
 namespace espalier {
 

@@ -1,10 +1,10 @@
-#include "app/parameter_docs.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 #include <vector>
+
+#include <espalier/app/parameter_docs.h>
 
 namespace espalier {
 

@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "core/parameter_table.h"
+#include <espalier/core/parameter_table.h>
 
 namespace espalier {
 

@@ -1,5 +1,3 @@
-#include "app/version.h"
-
 #include <OpenImageIO/imageio.h>
 #include <assimp/version.h>
 #include <embree3/rtcore_config.h>
@@ -11,6 +9,8 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <nlopt.hpp>
+
+#include <espalier/app/version.h>
 
 namespace espalier {
 

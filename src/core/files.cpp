@@ -1,5 +1,3 @@
-#include "core/files.h"
-
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -10,7 +8,8 @@
 #include <iterator>
 #include <system_error>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/core/files.h>
 
 namespace espalier {
 

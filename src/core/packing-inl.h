@@ -12,7 +12,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "core/vector_math-inl.h"
+#include <espalier/core/vector_math-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace espalier {

@@ -1,10 +1,9 @@
-#include "core/parameter_table.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/core/parameter_table.h>
 
 namespace espalier {
 

@@ -10,8 +10,8 @@
 #include <array>
 #include <bit>
 
-#include "core/random.h"
-#include "core/vector_math-inl.h"
+#include <espalier/core/random.h>
+#include <espalier/core/vector_math-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace espalier {

@@ -1,10 +1,9 @@
-#include "core/toml_file.h"
-
 #include <algorithm>
 #include <fstream>
 #include <system_error>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/core/toml_file.h>
 
 namespace espalier {
 

@@ -1,9 +1,8 @@
-#include "core/toml_section.h"
-
 #include <algorithm>
 
-#include "core/error.h"
-#include "core/parameter_table.h"
+#include <espalier/core/error.h>
+#include <espalier/core/parameter_table.h>
+#include <espalier/core/toml_section.h>
 
 namespace espalier {
 

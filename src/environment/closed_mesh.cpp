@@ -1,8 +1,6 @@
 // Reading closed meshes: Assimp parses and triangulates, then vertices are welded by position and every
 // edge is counted. Text and binary formats repeat the coordinates of shared vertices exactly, so welding
 // compares bits and needs no tolerance.
-#include "environment/closed_mesh.h"
-
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -15,8 +13,9 @@
 #include <system_error>
 #include <tuple>
 
-#include "core/error.h"
-#include "environment/ply_counts.h"
+#include <espalier/core/error.h>
+#include <espalier/environment/closed_mesh.h>
+#include <espalier/environment/ply_counts.h>
 
 namespace espalier {
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/vec3.h"
+#include <espalier/core/vec3.h>
 
 namespace espalier {
 

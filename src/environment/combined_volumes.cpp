@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.h"
-#include "environment/volume.h"
+#include <espalier/core/error.h>
+#include <espalier/environment/volume.h>
 
 namespace espalier {
 

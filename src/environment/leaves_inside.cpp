@@ -1,6 +1,6 @@
-#include "environment/leaves_inside.h"
-
 #include <algorithm>
+
+#include <espalier/environment/leaves_inside.h>
 
 namespace espalier {
 

@@ -1,7 +1,7 @@
 // Leaves kept inside of a volume: what training and pruning to a picture's outline do after stems have grown.
 #pragma once
-#include "environment/volume.h"
-#include "plant/plant.h"
+#include <espalier/environment/volume.h>
+#include <espalier/plant/plant.h>
 
 namespace espalier {
 

@@ -1,10 +1,9 @@
-#include "environment/mesh_distance.h"
-
 #include <algorithm>
 #include <cstring>
 #include <limits>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/environment/mesh_distance.h>
 
 namespace espalier {
 

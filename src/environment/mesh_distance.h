@@ -2,7 +2,7 @@
 #pragma once
 #include <embree3/rtcore.h>
 
-#include "environment/closed_mesh.h"
+#include <espalier/environment/closed_mesh.h>
 
 namespace espalier {
 

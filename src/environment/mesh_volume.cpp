@@ -8,9 +8,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "environment/closed_mesh.h"
-#include "environment/mesh_distance.h"
-#include "environment/volume.h"
+#include <espalier/environment/closed_mesh.h>
+#include <espalier/environment/mesh_distance.h>
+#include <espalier/environment/volume.h>
 
 namespace espalier {
 

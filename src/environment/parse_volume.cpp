@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.h"
-#include "environment/volume_tree.h"
+#include <espalier/core/error.h>
+#include <espalier/environment/volume_tree.h>
 
 namespace espalier {
 

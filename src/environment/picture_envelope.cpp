@@ -1,12 +1,11 @@
-#include "environment/picture_envelope.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/error.h"
-#include "image/distance_field.h"
-#include "image/read_target.h"
+#include <espalier/core/error.h>
+#include <espalier/environment/picture_envelope.h>
+#include <espalier/image/masks/distance_field.h>
+#include <espalier/image/reading/read_target.h>
 
 namespace espalier {
 

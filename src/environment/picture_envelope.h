@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "environment/volume.h"
-#include "image/mask.h"
-#include "render/camera.h"
+#include <espalier/environment/volume.h>
+#include <espalier/image/masks/mask.h>
+#include <espalier/render/camera.h>
 
 namespace espalier {
 

@@ -1,9 +1,8 @@
-#include "environment/picture_field.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "image/decode.h"
+#include <espalier/environment/picture_field.h>
+#include <espalier/image/pictures/decode.h>
 
 namespace espalier {
 

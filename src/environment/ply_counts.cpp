@@ -1,8 +1,7 @@
-#include "environment/ply_counts.h"
-
 #include <charconv>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/environment/ply_counts.h>
 
 namespace espalier {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/error.h"
-#include "environment/volume.h"
+#include <espalier/core/error.h>
+#include <espalier/environment/volume.h>
 
 namespace espalier {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/vec3.h"
+#include <espalier/core/vec3.h>
 
 namespace espalier {
 

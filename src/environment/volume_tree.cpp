@@ -1,10 +1,9 @@
-#include "environment/volume_tree.h"
-
 #include <algorithm>
 #include <array>
 #include <cctype>
 
-#include "environment/picture_envelope.h"
+#include <espalier/environment/picture_envelope.h>
+#include <espalier/environment/volume_tree.h>
 
 namespace espalier {
 

@@ -1,8 +1,7 @@
-#include "models/grown_into.h"
-
-#include "core/error.h"
-#include "environment/picture_envelope.h"
-#include "image/read_target.h"
+#include <espalier/core/error.h>
+#include <espalier/environment/picture_envelope.h>
+#include <espalier/image/reading/read_target.h>
+#include <espalier/models/grown_into.h>
 
 namespace espalier {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "core/toml_section.h"
-#include "environment/volume.h"
-#include "render/camera.h"
+#include <espalier/core/toml_section.h>
+#include <espalier/environment/volume.h>
+#include <espalier/render/camera.h>
 
 namespace espalier {
 

@@ -1,12 +1,11 @@
-#include "models/models.h"
-
 #include <map>
 #include <memory>
 #include <mutex>
 
-#include "core/error.h"
-#include "lsystem/model.h"
-#include "weber_penn/model.h"
+#include <espalier/core/error.h>
+#include <espalier/lsystem/files/model.h>
+#include <espalier/models/models.h>
+#include <espalier/weber_penn/model.h>
 
 namespace espalier {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "plant/model.h"
+#include <espalier/plant/model.h>
 
 namespace espalier {
 

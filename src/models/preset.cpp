@@ -1,14 +1,13 @@
-#include "models/preset.h"
-
 #include <algorithm>
 
-#include "core/error.h"
-#include "core/toml_file.h"
-#include "models/models.h"
-#include "models/preset_reader.h"
-#include "models/preset_source.h"
-#include "overrides/change_graph.h"
-#include "overrides/overrides_toml.h"
+#include <espalier/core/error.h>
+#include <espalier/core/toml_file.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+#include <espalier/models/preset_reader.h>
+#include <espalier/models/preset_source.h>
+#include <espalier/overrides/change_graph.h>
+#include <espalier/overrides/overrides_toml.h>
 
 namespace espalier {
 

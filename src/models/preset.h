@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/parameter_table.h"
-#include "models/grown_into.h"
-#include "overrides/overrides.h"
+#include <espalier/core/parameter_table.h>
+#include <espalier/models/grown_into.h>
+#include <espalier/overrides/overrides.h>
 
 namespace espalier {
 

@@ -1,10 +1,9 @@
-#include "models/preset_reader.h"
-
 #include <algorithm>
 #include <optional>
 
-#include "core/error.h"
-#include "core/toml_file.h"
+#include <espalier/core/error.h>
+#include <espalier/core/toml_file.h>
+#include <espalier/models/preset_reader.h>
 
 namespace espalier {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/parameter_table.h"
+#include <espalier/core/parameter_table.h>
 
 namespace espalier {
 

@@ -1,11 +1,10 @@
-#include "models/preset_source.h"
-
 #include <vector>
 
-#include "core/error.h"
-#include "core/parameter_table.h"
-#include "core/toml_file.h"
-#include "models/preset.h"
+#include <espalier/core/error.h>
+#include <espalier/core/parameter_table.h>
+#include <espalier/core/toml_file.h>
+#include <espalier/models/preset.h>
+#include <espalier/models/preset_source.h>
 
 namespace espalier {
 

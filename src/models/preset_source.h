@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/embedded_file.h"
+#include <espalier/core/embedded_file.h>
 
 namespace espalier {
 

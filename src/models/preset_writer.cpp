@@ -1,11 +1,11 @@
 // Writes a preset as TOML in the order of its model's table, a line a key with its unit and help;
 // load_preset reads it back to the same bits. Numbers are the shortest decimals that do so (fmt's default).
-#include "core/error.h"
-#include "core/toml_file.h"
-#include "models/models.h"
-#include "models/preset.h"
-#include "models/preset_reader.h"
-#include "overrides/overrides_toml.h"
+#include <espalier/core/error.h>
+#include <espalier/core/toml_file.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+#include <espalier/models/preset_reader.h>
+#include <espalier/overrides/overrides_toml.h>
 
 namespace espalier {
 

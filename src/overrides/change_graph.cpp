@@ -1,8 +1,7 @@
-#include "overrides/change_graph.h"
-
 #include <algorithm>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/overrides/change_graph.h>
 
 namespace espalier {
 

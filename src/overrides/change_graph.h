@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "overrides/overrides.h"
+#include <espalier/overrides/overrides.h>
 
 namespace espalier {
 

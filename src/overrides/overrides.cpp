@@ -1,9 +1,8 @@
-#include "overrides/overrides.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/overrides/overrides.h>
 
 namespace espalier {
 

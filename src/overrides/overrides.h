@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "overrides/branch_change.h"
-#include "plant/branch_path.h"
+#include <espalier/overrides/branch_change.h>
+#include <espalier/plant/branch_path.h>
 
 namespace espalier {
 

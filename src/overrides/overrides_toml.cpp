@@ -1,11 +1,10 @@
-#include "overrides/overrides_toml.h"
-
 #include <algorithm>
 #include <optional>
 
-#include "core/error.h"
-#include "core/toml_file.h"
-#include "overrides/change_graph.h"
+#include <espalier/core/error.h>
+#include <espalier/core/toml_file.h>
+#include <espalier/overrides/change_graph.h>
+#include <espalier/overrides/overrides_toml.h>
 
 namespace espalier {
 

@@ -8,8 +8,8 @@
 #pragma once
 #include <string>
 
-#include "core/toml_section.h"
-#include "overrides/overrides.h"
+#include <espalier/core/toml_section.h>
+#include <espalier/overrides/overrides.h>
 
 namespace espalier {
 

@@ -1,9 +1,8 @@
-#include "overrides/overrides_tree.h"
-
 #include <algorithm>
 
-#include "core/error.h"
-#include "overrides/change_graph.h"
+#include <espalier/core/error.h>
+#include <espalier/overrides/change_graph.h>
+#include <espalier/overrides/overrides_tree.h>
 
 namespace espalier {
 

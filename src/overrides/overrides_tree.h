@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "overrides/overrides.h"
+#include <espalier/overrides/overrides.h>
 
 namespace espalier {
 

@@ -1,9 +1,8 @@
-#include "overrides/reshape.h"
-
 #include <algorithm>
 #include <numeric>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/overrides/reshape.h>
 
 namespace espalier {
 

@@ -13,12 +13,12 @@
 //   child_count     of the stems, and of the leaves, on it: the first ones stay, none are added
 // A seed changes nothing: the plant is not grown anew.
 #pragma once
-#include "overrides/change_graph.h"
-#include "overrides/groups.h"
-#include "overrides/stem_measures.h"
-#include "overrides/turn.h"
-#include "plant/joints.h"
-#include "plant/model.h"
+#include <espalier/overrides/change_graph.h>
+#include <espalier/overrides/groups.h>
+#include <espalier/overrides/stem_measures.h>
+#include <espalier/overrides/turn.h>
+#include <espalier/plant/joints.h>
+#include <espalier/plant/model.h>
 
 namespace espalier {
 

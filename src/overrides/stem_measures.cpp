@@ -1,6 +1,6 @@
-#include "overrides/stem_measures.h"
-
 #include <algorithm>
+
+#include <espalier/overrides/stem_measures.h>
 
 namespace espalier {
 

@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "plant/joints.h"
+#include <espalier/plant/joints.h>
 
 namespace espalier {
 

@@ -1,7 +1,7 @@
 // A rotation of space as the images of its axes.
 #pragma once
-#include "core/sine_cosine.h"
-#include "core/vec3.h"
+#include <espalier/core/sine_cosine.h>
+#include <espalier/core/vec3.h>
 
 namespace espalier {
 

@@ -1,10 +1,9 @@
-#include "plant/branch_path.h"
-
 #include <algorithm>
 #include <charconv>
 #include <optional>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/plant/branch_path.h>
 
 namespace espalier {
 

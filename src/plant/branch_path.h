@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "plant/plant.h"
+#include <espalier/plant/plant.h>
 
 namespace espalier {
 

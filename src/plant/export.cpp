@@ -1,7 +1,5 @@
 // Export through Assimp: our arrays become its scene, its exporter makes the files in memory, and they
 // are written whole. Metres; y up for glTF (Khronos, glTF 2.0, section 3.4), z up otherwise.
-#include "plant/export.h"
-
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <unistd.h>
@@ -19,9 +17,10 @@
 #include <system_error>
 #include <vector>
 
-#include "core/error.h"
-#include "core/files.h"
-#include "plant/mesh_colors.h"
+#include <espalier/core/error.h>
+#include <espalier/core/files.h>
+#include <espalier/plant/export.h>
+#include <espalier/plant/mesh_colors.h>
 
 namespace espalier {
 

@@ -6,7 +6,7 @@
 #pragma once
 #include <filesystem>
 
-#include "plant/mesh.h"
+#include <espalier/plant/mesh.h>
 
 namespace espalier {
 

@@ -1,9 +1,9 @@
 // Flattening by Wang's bound: n equal steps of a cubic stay within 6/8 · M / n² of it, where M is the
 // largest second difference of its control points. Metres.
-#include "plant/flatten.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include <espalier/plant/flatten.h>
 
 namespace espalier {
 

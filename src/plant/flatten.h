@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/vec3.h"
-#include "plant/plant.h"
+#include <espalier/core/vec3.h>
+#include <espalier/plant/plant.h>
 
 namespace espalier {
 

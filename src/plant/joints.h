@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "plant/plant.h"
+#include <espalier/plant/plant.h>
 
 namespace espalier {
 

@@ -1,10 +1,9 @@
-#include "plant/leaf_half.h"
-
 #include <algorithm>
 #include <array>
 
-#include "core/error.h"
-#include "plant/leaf_outlines.h"
+#include <espalier/core/error.h>
+#include <espalier/plant/leaf_half.h>
+#include <espalier/plant/leaf_outlines.h>
 
 namespace espalier {
 

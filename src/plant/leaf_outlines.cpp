@@ -1,14 +1,13 @@
 // Leaves are drawn as their right half from stalk to tip, mirrored, and cut into triangles by clipping
 // ears; blossoms as petals of three triangles around the y axis. Unit length, no unit.
-#include "plant/leaf_outlines.h"
-
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <numeric>
 #include <span>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/plant/leaf_outlines.h>
 
 namespace espalier {
 

@@ -1,13 +1,12 @@
 // From a plant to its meshes: tubes along flattened stems, outlines placed at leaves. Metres.
-#include "plant/mesh.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "plant/flatten.h"
-#include "plant/leaf_outlines.h"
-#include "plant/tube.h"
+#include <espalier/plant/flatten.h>
+#include <espalier/plant/leaf_outlines.h>
+#include <espalier/plant/mesh.h>
+#include <espalier/plant/tube.h>
 
 namespace espalier {
 

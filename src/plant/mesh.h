@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/vec3.h"
-#include "plant/plant.h"
+#include <espalier/core/vec3.h>
+#include <espalier/plant/plant.h>
 
 namespace espalier {
 

@@ -1,6 +1,6 @@
-#include "plant/mesh_colors.h"
-
 #include <set>
+
+#include <espalier/plant/mesh_colors.h>
 
 namespace espalier {
 

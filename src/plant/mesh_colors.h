@@ -3,7 +3,7 @@
 #pragma once
 #include <map>
 
-#include "plant/mesh.h"
+#include <espalier/plant/mesh.h>
 
 namespace espalier {
 

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <span>
 
-#include "core/parameter_table.h"
-#include "core/random.h"
-#include "plant/branch_path.h"
-#include "plant/leaf_sink.h"
-#include "plant/plant.h"
+#include <espalier/core/parameter_table.h>
+#include <espalier/core/random.h>
+#include <espalier/plant/branch_path.h>
+#include <espalier/plant/leaf_sink.h>
+#include <espalier/plant/plant.h>
 
 namespace espalier {
 

@@ -1,12 +1,11 @@
 // Emptying a plant and its bounding box. Metres.
-#include "plant/plant.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
-#include "plant/leaf_outlines.h"
+#include <espalier/plant/leaf_outlines.h>
+#include <espalier/plant/plant.h>
 
 namespace espalier {
 

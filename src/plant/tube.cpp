@@ -1,9 +1,9 @@
 // Tubes from polylines: tangents and frames first, then rings, sides and caps. Metres.
-#include "plant/tube.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include <espalier/plant/tube.h>
 
 namespace espalier {
 

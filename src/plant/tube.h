@@ -2,8 +2,8 @@
 // Metres. Rings are turned as little as possible from one to the next (parallel transport).
 // Source: Wang, Jüttler, Zheng, Liu, "Computation of Rotation Minimizing Frames" (2008), double reflection.
 #pragma once
-#include "plant/flatten.h"
-#include "plant/mesh.h"
+#include <espalier/plant/flatten.h>
+#include <espalier/plant/mesh.h>
 
 namespace espalier {
 

@@ -1,10 +1,10 @@
 // Rays, projections and framing. Metres; directions are unit vectors; radians only next to trigonometry.
-#include "render/camera.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+
+#include <espalier/render/camera.h>
 
 namespace espalier {
 

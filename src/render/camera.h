@@ -1,8 +1,8 @@
 // Cameras: how points of the world become pixels. World: metres, z up; the front view looks along +y.
 // Picture: x to the right, y down, pixel centres at (i+0.5, j+0.5).
 #pragma once
-#include "core/vec3.h"
-#include "plant/plant.h"
+#include <espalier/core/vec3.h>
+#include <espalier/plant/plant.h>
 
 namespace espalier {
 

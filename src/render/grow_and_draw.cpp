@@ -1,6 +1,6 @@
-#include "render/grow_and_draw.h"
-
 #include <algorithm>
+
+#include <espalier/render/grow_and_draw.h>
 
 namespace espalier {
 

@@ -3,8 +3,8 @@
 #pragma once
 #include <span>
 
-#include "plant/model.h"
-#include "render/silhouette.h"
+#include <espalier/plant/model.h>
+#include <espalier/render/silhouette.h>
 
 namespace espalier {
 

@@ -1,10 +1,10 @@
 // The rectangle around the projected corners of a box. Metres and pixels.
-#include "render/pixel_rectangle.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include <espalier/render/pixel_rectangle.h>
 
 namespace espalier {
 

@@ -1,6 +1,6 @@
 // Where a box of the world falls in a picture: rays outside of it need not be traced. Metres and pixels.
 #pragma once
-#include "render/camera.h"
+#include <espalier/render/camera.h>
 
 namespace espalier {
 

@@ -3,10 +3,10 @@
 #pragma once
 #include <memory>
 
-#include "image/mask.h"
-#include "plant/leaf_sink.h"
-#include "plant/plant.h"
-#include "render/camera.h"
+#include <espalier/image/masks/mask.h>
+#include <espalier/plant/leaf_sink.h>
+#include <espalier/plant/plant.h>
+#include <espalier/render/camera.h>
 
 namespace espalier {
 
@@ -26,13 +26,5 @@ class SilhouetteRenderer {
   /// What draws bit by bit; null where a renderer needs the whole plant at once.
   virtual SilhouetteParts* parts() { return nullptr; }
 };
-
-/// The reference: traces rays with Embree 3. Stems are cones along the curves, fine enough for the largest
-/// picture; leaves are their polygons (render/embree_geometry.h).
-std::unique_ptr<SilhouetteRenderer> make_embree_renderer();
-
-/// The fast one, for searches: draws the same pixels by scan lines, but for a few on edges
-/// (docs/fast_path.md).
-std::unique_ptr<SilhouetteRenderer> make_scanline_renderer();
 
 }  // namespace espalier

@@ -1,12 +1,11 @@
 // One level at a time; counts after [CH §3.2.1], see deepen.h.
-#include "weber_penn/deepen.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "weber_penn/estimate.h"
-#include "weber_penn/parameters.h"
+#include <espalier/weber_penn/deepen.h>
+#include <espalier/weber_penn/estimate.h>
+#include <espalier/weber_penn/table/parameters.h>
 
 namespace espalier {
 

@@ -4,7 +4,7 @@
 #pragma once
 #include <span>
 
-#include "core/parameter_table.h"
+#include <espalier/core/parameter_table.h>
 
 namespace espalier {
 

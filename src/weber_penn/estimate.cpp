@@ -1,12 +1,11 @@
 // Expected counts level by level: splits as a branching process, children by the mean of their formulas.
-#include "weber_penn/estimate.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "weber_penn/shape_ratio.h"
-#include "weber_penn/stem.h"
+#include <espalier/weber_penn/estimate.h>
+#include <espalier/weber_penn/scalar/stem.h>
+#include <espalier/weber_penn/table/shape_ratio.h>
 
 namespace espalier {
 

@@ -1,7 +1,7 @@
 // How large a tree will get, from its parameters alone: candidates beyond the budget are refused unseen.
 #pragma once
-#include "plant/model.h"
-#include "weber_penn/parameters.h"
+#include <espalier/plant/model.h>
+#include <espalier/weber_penn/table/parameters.h>
 
 namespace espalier {
 

@@ -1,26 +1,25 @@
 // Growth is breadth-first: all stems of a level, their clones queued behind them, then their children.
 // A parent therefore always comes before its children in the plant's arrays.
-#include "weber_penn/grow.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "environment/leaves_inside.h"
-#include "weber_penn/changed_children.h"
-#include "weber_penn/child_stem.h"
-#include "weber_penn/children.h"
-#include "weber_penn/curve_knots.h"
-#include "weber_penn/leaf_batch.h"
-#include "weber_penn/leaf_placement.h"
-#include "weber_penn/pruning.h"
-#include "weber_penn/shape_ratio.h"
-#include "weber_penn/stem_batch.h"
-#include "weber_penn/stem_knots.h"
-#include "weber_penn/trunks.h"
-#include "weber_penn/twig_batch.h"
+#include <espalier/environment/leaves_inside.h>
+#include <espalier/weber_penn/grow.h>
+#include <espalier/weber_penn/scalar/changed_children.h>
+#include <espalier/weber_penn/scalar/child_stem.h>
+#include <espalier/weber_penn/scalar/children.h>
+#include <espalier/weber_penn/scalar/leaf_placement.h>
+#include <espalier/weber_penn/scalar/pruning.h>
+#include <espalier/weber_penn/scalar/stem_knots.h>
+#include <espalier/weber_penn/scalar/trunks.h>
+#include <espalier/weber_penn/simd/curve_knots.h>
+#include <espalier/weber_penn/simd/leaf_batch.h>
+#include <espalier/weber_penn/simd/stem_batch.h>
+#include <espalier/weber_penn/simd/twig_batch.h>
+#include <espalier/weber_penn/table/shape_ratio.h>
 
 namespace espalier {
 

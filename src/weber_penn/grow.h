@@ -1,7 +1,7 @@
 // Growing a whole tree, level by level [CH §3.2].
 #pragma once
-#include "plant/model.h"
-#include "weber_penn/parameters.h"
+#include <espalier/plant/model.h>
+#include <espalier/weber_penn/table/parameters.h>
 
 namespace espalier {
 

@@ -1,12 +1,11 @@
 // The Weber–Penn model behind the Model interface, see model.h.
-#include "weber_penn/model.h"
-
 #include <algorithm>
 
-#include "weber_penn/deepen.h"
-#include "weber_penn/estimate.h"
-#include "weber_penn/grow.h"
-#include "weber_penn/parameters.h"
+#include <espalier/weber_penn/deepen.h>
+#include <espalier/weber_penn/estimate.h>
+#include <espalier/weber_penn/grow.h>
+#include <espalier/weber_penn/model.h>
+#include <espalier/weber_penn/table/parameters.h>
 
 namespace espalier {
 

@@ -1,6 +1,6 @@
 // The parametric model as a Model: what can be rendered, fitted, blended and exported.
 #pragma once
-#include "plant/model.h"
+#include <espalier/plant/model.h>
 
 namespace espalier {
 

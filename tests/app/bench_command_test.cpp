@@ -7,7 +7,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/bench_scaling.h"
+#include <espalier/app/bench/bench_scaling.h>
+
 #include "support/run_espalier.h"
 
 namespace espalier {

@@ -5,8 +5,9 @@
 
 #include <filesystem>
 
-#include "image/decode.h"
-#include "models/preset.h"
+#include <espalier/image/pictures/decode.h>
+#include <espalier/models/preset.h>
+
 #include "support/run_espalier.h"
 
 namespace espalier {

@@ -5,9 +5,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "image/compare.h"
-#include "image/picture.h"
-#include "image/read_target.h"
+#include <espalier/image/measures/compare.h>
+#include <espalier/image/pictures/picture.h>
+#include <espalier/image/reading/read_target.h>
+
 #include "support/picture_files.h"
 #include "support/run_espalier.h"
 

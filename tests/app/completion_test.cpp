@@ -1,10 +1,10 @@
 // Completion scripts name every command and option there is, and bash's works in bash.
-#include "app/completion.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+
+#include <espalier/app/completion.h>
 
 #include "support/run_espalier.h"
 

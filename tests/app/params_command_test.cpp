@@ -4,8 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/parameter_docs.h"
-#include "models/models.h"
+#include <espalier/app/parameter_docs.h>
+#include <espalier/models/models.h>
+
 #include "support/run_espalier.h"
 
 namespace espalier {

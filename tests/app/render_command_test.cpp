@@ -11,11 +11,12 @@
 #include <string>
 #include <utility>
 
-#include "image/picture.h"
-#include "models/models.h"
-#include "models/preset.h"
-#include "render/camera.h"
-#include "render/silhouette.h"
+#include <espalier/image/pictures/picture.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+#include <espalier/render/camera.h>
+#include <espalier/render/embree/embree_renderer.h>
+#include <espalier/render/silhouette.h>
 
 namespace espalier {
 namespace {

@@ -5,7 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "image/decode.h"
+#include <espalier/image/pictures/decode.h>
+
 #include "support/run_espalier.h"
 
 namespace espalier {

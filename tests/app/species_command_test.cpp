@@ -4,7 +4,8 @@
 
 #include <fstream>
 
-#include "models/preset.h"
+#include <espalier/models/preset.h>
+
 #include "support/run_espalier.h"
 
 namespace espalier {

@@ -5,8 +5,9 @@
 
 #include <filesystem>
 
-#include "image/picture.h"
-#include "image/read_target.h"
+#include <espalier/image/pictures/picture.h>
+#include <espalier/image/reading/read_target.h>
+
 #include "support/picture_files.h"
 #include "support/run_espalier.h"
 

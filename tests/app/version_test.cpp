@@ -1,8 +1,8 @@
 // What `espalier --version` says.
-#include "app/version.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <espalier/app/version.h>
 
 #include "support/run_espalier.h"
 

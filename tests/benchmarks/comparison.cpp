@@ -5,10 +5,11 @@
 
 #include <string>
 
-#include "image/compare.h"
-#include "models/models.h"
-#include "models/preset.h"
-#include "render/silhouette.h"
+#include <espalier/image/measures/compare.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+#include <espalier/render/scanlines/scanline_renderer.h>
+#include <espalier/render/silhouette.h>
 
 namespace espalier {
 namespace {

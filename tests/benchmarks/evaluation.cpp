@@ -8,11 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "image/compare.h"
-#include "models/models.h"
-#include "models/preset.h"
-#include "render/embree_scene.h"
-#include "render/grow_and_draw.h"
+#include <espalier/image/measures/compare.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+#include <espalier/render/embree/embree_renderer.h>
+#include <espalier/render/embree/embree_scene.h>
+#include <espalier/render/grow_and_draw.h>
+#include <espalier/render/scanlines/scanline_renderer.h>
 
 namespace espalier {
 namespace {

@@ -5,7 +5,8 @@
 
 #include <string>
 
-#include "lsystem/derivation.h"
+#include <espalier/lsystem/derivation/derivation.h>
+#include <espalier/lsystem/files/grammar_file.h>
 
 namespace espalier::lsystem {
 namespace {

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fitting/optimizer.h"
+#include <espalier/fitting/optimizers/optimizer.h>
 
 namespace espalier {
 namespace {

@@ -1,5 +1,3 @@
-#include "core/files.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -9,7 +7,9 @@
 #include <thread>
 #include <vector>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/core/files.h>
+
 #include "support/run_espalier.h"
 
 namespace espalier {

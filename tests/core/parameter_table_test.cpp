@@ -1,6 +1,4 @@
 // Laws of parameter tables: lookup, validation and the words of its messages.
-#include "core/parameter_table.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -8,7 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/core/parameter_table.h>
 
 namespace espalier {
 namespace {

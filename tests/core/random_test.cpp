@@ -1,10 +1,10 @@
 // Draws: uniform, independent of their neighbours in index, purpose and place, and what they were.
-#include "core/random.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+
+#include <espalier/core/random.h>
 
 namespace espalier {
 namespace {

@@ -1,9 +1,9 @@
 // Our sine and cosine are those of the C library, within a few roundings.
-#include "core/sine_cosine.h"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
+
+#include <espalier/core/sine_cosine.h>
 
 namespace espalier {
 namespace {

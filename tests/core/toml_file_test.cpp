@@ -1,13 +1,12 @@
 // Laws of reading TOML: what cannot be read is one clear line.
-#include "core/toml_file.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <fstream>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/core/toml_file.h>
 
 namespace espalier {
 namespace {

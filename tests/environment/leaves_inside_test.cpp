@@ -1,8 +1,8 @@
 // Leaves that training keeps inside of a volume.
-#include "environment/leaves_inside.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+
+#include <espalier/environment/leaves_inside.h>
 
 namespace espalier {
 namespace {

@@ -1,12 +1,11 @@
 // The volume that pictures leave to a tree.
-#include "environment/picture_envelope.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/environment/picture_envelope.h>
 
 namespace espalier {
 namespace {

@@ -1,7 +1,5 @@
 // Laws of volumes: boxes, balls, cylinders, meshes, and their command-line forms. Meshes are written by
 // the tests as OBJ or STL text into the test's own directory.
-#include "environment/volume.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -14,7 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/environment/volume.h>
 
 namespace espalier {
 namespace {

@@ -1,6 +1,4 @@
 // Laws of volumes of volumes, of signed distances, and of volumes as text.
-#include "environment/volume_tree.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <unistd.h>
@@ -8,8 +6,9 @@
 #include <cmath>
 #include <fstream>
 
-#include "environment/picture_envelope.h"
-#include "image/picture.h"
+#include <espalier/environment/picture_envelope.h>
+#include <espalier/environment/volume_tree.h>
+#include <espalier/image/pictures/picture.h>
 
 namespace espalier {
 namespace {

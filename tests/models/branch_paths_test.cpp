@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
-#include "models/models.h"
-#include "models/preset.h"
-#include "overrides/change_graph.h"
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+#include <espalier/overrides/change_graph.h>
 
 namespace espalier {
 namespace {

@@ -1,6 +1,4 @@
 // Laws of presets: the bundled ones hold the published values, extending, writing and reading back.
-#include "models/preset.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -13,8 +11,10 @@
 #include <map>
 #include <sstream>
 
-#include "core/error.h"
-#include "models/models.h"
+#include <espalier/core/error.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+
 #include "support/run_espalier.h"
 
 namespace espalier {

@@ -4,9 +4,11 @@
 
 #include <cmath>
 
-#include "models/models.h"
-#include "models/preset.h"
-#include "render/silhouette.h"
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+#include <espalier/render/scanlines/scanline_renderer.h>
+#include <espalier/render/silhouette.h>
+
 #include "support/only_target.h"
 
 namespace espalier {

@@ -1,10 +1,9 @@
 // Inheritance in the decomposition graph: laws of Boudon et al. 2003, §2.1 and §2.2.
-#include "overrides/change_graph.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/overrides/change_graph.h>
 
 namespace espalier {
 namespace {

@@ -1,12 +1,11 @@
 // Overrides in presets: read back as written, every bad entry refused with its line.
-#include "overrides/overrides_toml.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "core/error.h"
-#include "overrides/overrides_tree.h"
+#include <espalier/core/error.h>
+#include <espalier/overrides/overrides_toml.h>
+#include <espalier/overrides/overrides_tree.h>
 
 namespace espalier {
 namespace {

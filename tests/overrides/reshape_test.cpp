@@ -1,14 +1,14 @@
 // Laws of shapes that a grown plant gets by overrides of its branches.
-#include "overrides/reshape.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <map>
 
-#include "core/error.h"
-#include "overrides/jointed_plants.h"
+#include <espalier/core/error.h>
+#include <espalier/overrides/reshape.h>
+
+#include "support/jointed_plants.h"
 
 namespace espalier {
 namespace {

@@ -1,10 +1,9 @@
 // Paths of branches as text, and from the arrays of a plant.
-#include "plant/branch_path.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/plant/branch_path.h>
 
 namespace espalier {
 namespace {

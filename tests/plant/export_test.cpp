@@ -1,7 +1,5 @@
 // Laws of export: what Assimp reads back is what was meshed, in every format; glTF is y up with the
 // materials its viewers need; nothing is left behind where writing fails.
-#include "plant/export.h"
-
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -17,9 +15,11 @@
 #include <set>
 #include <string>
 
-#include "core/error.h"
-#include "mesh_fixtures.h"
-#include "plant/mesh_colors.h"
+#include <espalier/core/error.h>
+#include <espalier/plant/export.h>
+#include <espalier/plant/mesh_colors.h>
+
+#include "support/mesh_fixtures.h"
 
 namespace espalier {
 namespace {

@@ -1,12 +1,12 @@
 // Laws of flattening: within the tolerance, as coarse as that allows, ends and radii kept.
-#include "plant/flatten.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "mesh_fixtures.h"
+#include <espalier/plant/flatten.h>
+
+#include "support/mesh_fixtures.h"
 
 namespace espalier {
 namespace {

@@ -1,12 +1,11 @@
 // Laws of the unit outlines: published widths and areas, triangles that tile the boundary, cups of a size.
-#include "plant/leaf_outlines.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
+#include <espalier/core/error.h>
+#include <espalier/plant/leaf_outlines.h>
 
 namespace espalier {
 namespace {

@@ -1,16 +1,16 @@
 // Laws of meshes: closed tubes with the volume and area of their formula, unit normals that look outwards,
 // finite texture coordinates, fewer triangles at less detail, leaves that are their outlines.
-#include "plant/mesh.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "mesh_fixtures.h"
-#include "plant/leaf_outlines.h"
-#include "plant/tube.h"
+#include <espalier/plant/leaf_outlines.h>
+#include <espalier/plant/mesh.h>
+#include <espalier/plant/tube.h>
+
+#include "support/mesh_fixtures.h"
 
 namespace espalier {
 namespace {

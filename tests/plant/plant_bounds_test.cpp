@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "plant/plant.h"
+#include <espalier/plant/plant.h>
 
 namespace espalier {
 namespace {

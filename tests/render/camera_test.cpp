@@ -1,10 +1,10 @@
 // Laws of cameras: rays and projections agree, views are orthonormal, frames hold what they must hold.
-#include "render/camera.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <cmath>
+
+#include <espalier/render/camera.h>
 
 namespace espalier {
 namespace {

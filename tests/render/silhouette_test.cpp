@@ -1,6 +1,4 @@
 // Laws of silhouettes, for every renderer, on plants made by hand. Metres and pixels.
-#include "render/silhouette.h"
-
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -12,10 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "hand_made_plants.h"
-#include "image/mask.h"
-#include "plant/leaf_outlines.h"
-#include "render/embree_scene.h"
+#include <espalier/image/masks/mask.h>
+#include <espalier/plant/leaf_outlines.h>
+#include <espalier/render/embree/embree_renderer.h>
+#include <espalier/render/embree/embree_scene.h>
+#include <espalier/render/scanlines/scanline_renderer.h>
+#include <espalier/render/silhouette.h>
+
+#include "support/hand_made_plants.h"
 
 namespace espalier {
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "image/mask.h"
+#include <espalier/image/masks/mask.h>
 
 namespace espalier::test {
 

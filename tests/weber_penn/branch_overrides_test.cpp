@@ -7,10 +7,10 @@
 #include <map>
 #include <set>
 
-#include "models/preset.h"
-#include "overrides/change_graph.h"
-#include "weber_penn/model.h"
-#include "weber_penn/parameters.h"
+#include <espalier/models/preset.h>
+#include <espalier/overrides/change_graph.h>
+#include <espalier/weber_penn/model.h>
+#include <espalier/weber_penn/table/parameters.h>
 
 namespace espalier {
 namespace {

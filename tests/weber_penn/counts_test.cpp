@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "models/models.h"
-#include "models/preset.h"
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
 
 namespace espalier {
 namespace {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "environment/volume.h"
-#include "weber_penn/model.h"
-#include "weber_penn/parameters.h"
-#include "weber_penn/stem.h"
+#include <espalier/environment/volume.h>
+#include <espalier/weber_penn/model.h>
+#include <espalier/weber_penn/scalar/stem.h>
+#include <espalier/weber_penn/table/parameters.h>
 
 namespace espalier {
 namespace {

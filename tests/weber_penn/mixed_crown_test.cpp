@@ -1,11 +1,11 @@
 // Crowns of two shapes, and the same tree with more levels of branching.
 #include <gtest/gtest.h>
 
-#include "models/preset.h"
-#include "weber_penn/deepen.h"
-#include "weber_penn/estimate.h"
-#include "weber_penn/model.h"
-#include "weber_penn/shape_ratio.h"
+#include <espalier/models/preset.h>
+#include <espalier/weber_penn/deepen.h>
+#include <espalier/weber_penn/estimate.h>
+#include <espalier/weber_penn/model.h>
+#include <espalier/weber_penn/table/shape_ratio.h>
 
 namespace espalier {
 namespace {

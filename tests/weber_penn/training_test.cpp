@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "environment/volume.h"
-#include "models/preset.h"
-#include "weber_penn/model.h"
-#include "weber_penn/parameters.h"
+#include <espalier/environment/volume.h>
+#include <espalier/models/preset.h>
+#include <espalier/weber_penn/model.h>
+#include <espalier/weber_penn/table/parameters.h>
 
 namespace espalier {
 namespace {

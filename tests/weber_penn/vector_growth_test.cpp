@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "models/preset.h"
-#include "weber_penn/estimate.h"
-#include "weber_penn/grow.h"
+#include <espalier/models/preset.h>
+#include <espalier/weber_penn/estimate.h>
+#include <espalier/weber_penn/grow.h>
 
 namespace espalier {
 namespace {

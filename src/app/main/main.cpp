@@ -1,3 +1,3 @@
-#include "app/commands.h"
+#include <espalier/app/main/program.h>
 
 int main(int argc, char** argv) { return espalier::run_program(argc, argv); }

@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <cmath>
+
+#include <espalier/fitting/branches/branch_offsets.h>
+
+namespace espalier {
+
+namespace {
+
+/// Sets what differs from the model, and takes out what no longer does.
+void set_or_drop(OverrideSet& set, const Override& entry, bool differs) {
+  if (differs) return set_override(set, entry);
+  std::erase_if(set.overrides, [&](const Override& other) { return other.quantity == entry.quantity; });
+}
+
+void read_override(const Override& entry, BranchOffsets& branch) {
+  if (entry.quantity == Quantity::seed) branch.seed = static_cast<std::uint64_t>(entry.number);
+  for (std::size_t i = 0; i < kBranchDimensions.size(); ++i) {
+    const BranchDimension& d = kBranchDimensions[i];
+    if (d.quantity != entry.quantity || d.relation != entry.relation) continue;
+    branch.at[i] = (d.relation == Relation::factor ? std::log(entry.number) : entry.number) / d.range;
+  }
+}
+
+}  // namespace
+
+bool removes(const OverrideNode& node) {
+  return std::any_of(node.set.overrides.begin(), node.set.overrides.end(), [](const Override& entry) {
+    return entry.quantity == Quantity::removed && entry.number != 0;
+  });
+}
+
+BranchOffsets read_offsets(const BranchPath& path, const Overrides& overrides) {
+  BranchOffsets branch{.path = path};
+  const OverrideNode* node = overrides.find(path);
+  if (!node) return branch;
+  branch.removed = removes(*node);
+  for (const Override& entry : node->set.overrides) read_override(entry, branch);
+  return branch;
+}
+
+void write_offsets(const BranchOffsets& branch, Overrides& overrides) {
+  OverrideSet& set = overrides.at(branch.path).set;
+  for (std::size_t i = 0; i < kBranchDimensions.size(); ++i) {
+    const BranchDimension& d = kBranchDimensions[i];
+    if (d.quantity == Quantity::position && branch.path.size() == 1) continue;
+    const double x = branch.at[i] * d.range;
+    set_or_drop(set, {d.quantity, d.relation, d.relation == Relation::factor ? std::exp(x) : x, true},
+                x != 0);
+  }
+  set_or_drop(set, {Quantity::seed, Relation::value, static_cast<double>(branch.seed), true},
+              branch.seed != 0);
+  set_or_drop(set, {Quantity::removed, Relation::value, 1, true}, branch.removed);
+}
+
+Solution only(const BranchPath& path, const Solution& solution) {
+  Solution one{solution.values, solution.plant_seed, {}, 1};
+  for (const OverrideNode& node : solution.overrides.nodes) {
+    const auto shared = static_cast<std::ptrdiff_t>(std::min(node.path.size(), path.size()));
+    if (std::equal(node.path.begin(), node.path.begin() + shared, path.begin()))
+      one.overrides.nodes.push_back(node);
+  }
+  return one;
+}
+
+}  // namespace espalier

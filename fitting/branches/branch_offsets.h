@@ -1,0 +1,53 @@
+// What a search changes of one branch: seven offsets from what the model gives it, other random numbers, or
+// its removal. Written to, and read from, the overrides of its path, private to it.
+#pragma once
+#include <algorithm>
+#include <array>
+
+#include <espalier/fitting/branches/solution.h>
+
+namespace espalier {
+
+/// One coordinate of a branch, up to 1; 0 leaves it as the model grows it.
+struct BranchDimension {
+  Quantity quantity;
+  Relation relation;
+  double range;        ///< of the offset at coordinate 1; of a factor: its logarithm
+  double lowest = -1;  ///< coordinate
+};
+
+/// How far a branch may go from what the model gives it: much thinner, but not much thicker.
+inline constexpr std::array<BranchDimension, 7> kBranchDimensions{{
+    {Quantity::length, Relation::factor, 1.1},
+    {Quantity::down_angle, Relation::offset, 70},
+    {Quantity::rotation, Relation::offset, 180},
+    {Quantity::curvature, Relation::offset, 120},
+    {Quantity::curvature_back, Relation::offset, 90},
+    {Quantity::position, Relation::offset, 0.3},
+    {Quantity::radius, Relation::factor, 0.4, -4},
+}};
+
+/// The coordinate moved into its range.
+inline double clamped(std::size_t dimension, double x) {
+  return std::clamp(x, kBranchDimensions[dimension].lowest, 1.0);
+}
+
+struct BranchOffsets {
+  BranchPath path;
+  std::array<double, kBranchDimensions.size()> at{};  ///< coordinates of kBranchDimensions
+  std::uint64_t seed = 0;                             ///< of other random numbers; 0: its own
+  bool removed = false;
+};
+
+BranchOffsets read_offsets(const BranchPath& path, const Overrides& overrides);
+
+/// Leaves what the node says of other quantities as it is.
+void write_offsets(const BranchOffsets& branch, Overrides& overrides);
+
+/// Whether the node takes its branch away.
+bool removes(const OverrideNode& node);
+
+/// The solution as far as it concerns the branch: its own node, those above it and those below.
+Solution only(const BranchPath& path, const Solution& solution);
+
+}  // namespace espalier

@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include <espalier/fitting/branches/branch_offsets.h>
+#include <espalier/fitting/branches/branch_refinement.h>
+#include <espalier/fitting/branches/reach_limit.h>
+#include <espalier/fitting/optimizers/draws.h>
+#include <espalier/overrides/change_graph.h>
+
+namespace espalier {
+
+namespace {
+
+using Masks = std::vector<Mask>;  ///< one a view
+
+// Of the evolution strategy: its step, in coordinates of kBranchDimensions, and by how much a success or a
+// failure changes it [Rechenberg's rule of one success in five: 1.5 · 0.92^4 is about 1].
+constexpr double kFirstSigma = 0.15, kWidest = 0.5, kNarrowest = 0.01, kWiden = 1.5, kNarrow = 0.92;
+
+struct Branch : BranchOffsets {
+  double sigma = kFirstSigma;
+  Masks masks;
+  float too_far_m = 0;  ///< it reaches further than is plausible
+};
+
+Branch read_branch(const BranchPath& path, const Overrides& overrides) {
+  return {read_offsets(path, overrides), kFirstSigma, {}, 0};
+}
+
+/// Draws plants and parts of them.
+class Drawer {
+ public:
+  explicit Drawer(const FitTask& task) : task_(task), renderer_(task.make_renderer()) {}
+
+  bool draw(const Solution& solution, const PlantPart* part, Masks& masks) {
+    const ChangeGraph graph(solution.overrides);
+    GrowthSettings growth = task_.growth;
+    growth.changes = &graph;
+    growth.only_part = part;
+    plant_.clear();
+    masks.resize(task_.views.size());
+    const bool grown = task_.model->generate(solution.values, solution.plant_seed, growth, plant_).grown;
+    for (std::size_t i = 0; i < masks.size(); ++i) {
+      const Camera& camera = task_.views[i].camera;
+      masks[i].reset(camera.width_px, camera.height_px);
+      if (grown) renderer_->draw(plant_, camera, masks[i]);
+    }
+    return grown;
+  }
+  const Plant& plant() const { return plant_; }
+
+ private:
+  const FitTask& task_;
+  std::unique_ptr<SilhouetteRenderer> renderer_;
+  Plant plant_;
+};
+
+double mean_dissimilarity(const FitTask& task, const Masks& masks) {
+  double sum = 0;
+  for (std::size_t i = 0; i < masks.size(); ++i)
+    sum += dissimilarity(task.objective, masks[i], task.views[i].target);
+  return sum / static_cast<double>(masks.size());
+}
+
+void join(Masks& all, const Masks& more) {
+  for (std::size_t v = 0; v < all.size(); ++v)
+    for (std::size_t w = 0; w < all[v].words().size(); ++w) all[v].words()[w] |= more[v].words()[w];
+}
+
+class Refinement {
+ public:
+  Refinement(const FitTask& task, const RefinementSettings& settings, Solution& solution)
+      : task_(task),
+        settings_(settings),
+        solution_(solution),
+        drawer_(task),
+        reach_limit_(task),
+        draws_(settings.key) {
+    find_branches();
+  }
+
+  long run() {
+    long steps = 0;
+    std::vector<std::size_t> order(branches_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    while (steps < settings_.steps && !branches_.empty()) {
+      shuffle(order);
+      for (const std::size_t index : order)
+        if (steps < settings_.steps) steps += visit(branches_[index]);
+    }
+    finish();
+    return steps;
+  }
+
+ private:
+  void shuffle(std::vector<std::size_t>& order) {
+    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[draws_.below(i)]);
+  }
+
+  /// The order of a branch is the length of its path: stems that split off a trunk are of order 1, as are its
+  /// children. Removed ones are found by their overrides.
+  void find_branches() {
+    Masks all;
+    drawer_.draw(solution_, nullptr, all);
+    fixed_ = all;
+    for (Mask& mask : fixed_) mask.clear();
+    const auto length = static_cast<std::size_t>(settings_.order) + 1;
+    std::vector<BranchPath> above;
+    const Plant& plant = drawer_.plant();
+    for (std::size_t stem = 0; stem < plant.stems.size(); ++stem) {
+      const BranchPath path = path_of(plant, stem);
+      if (path.size() == length) branches_.push_back(read_branch(path, solution_.overrides));
+      if (path.size() < length) above.push_back(path);
+    }
+    for (const OverrideNode& node : solution_.overrides.nodes)
+      if (node.path.size() == length && removes(node))
+        branches_.push_back(read_branch(node.path, solution_.overrides));
+    draw_all(above);
+  }
+
+  void draw_all(const std::vector<BranchPath>& above) {
+    if (branches_.empty()) return;
+    Masks masks;
+    for (const BranchPath& path : above) {
+      const PlantPart part{path, true};
+      drawer_.draw(solution_, &part, masks);
+      join(fixed_, masks);
+    }
+    for (Branch& branch : branches_) {
+      Solution one = only(branch.path, solution_);
+      draw(branch, one);
+    }
+  }
+
+  /// The branch alone, as it is now. `one` is the tree as far as it concerns the branch.
+  void draw(Branch& branch, Solution& one) {
+    const PlantPart part{branch.path};
+    write_offsets(branch, one.overrides);
+    drawer_.draw(one, &part, branch.masks);
+    branch.too_far_m = reach_limit_.excess_m(drawer_.plant());
+  }
+
+  Masks rest_of(const Branch& branch) const {
+    Masks rest = fixed_;
+    for (const Branch& other : branches_)
+      if (&other != &branch) join(rest, other.masks);
+    return rest;
+  }
+
+  double score(const Masks& rest, const Branch& branch) {
+    joined_ = rest;
+    join(joined_, branch.masks);
+    return mean_dissimilarity(task_, joined_);
+  }
+
+  Branch mutated(const Branch& branch) {
+    Branch child = branch;
+    if (draws_.chance(branch.removed ? 0.3 : 0.04)) {
+      child.removed = !child.removed;
+      if (child.removed) return child;
+      for (std::size_t i = 0; i < child.at.size(); ++i) child.at[i] = clamped(i, 0.5 * draws_.normal());
+      return child;
+    }
+    if (draws_.chance(0.08) && task_.model->can_change(Quantity::seed)) {
+      child.seed = 1 + draws_.below(1'000'000);
+      return child;
+    }
+    const bool all = draws_.chance(0.3);
+    for (std::size_t i = 0; i < child.at.size(); ++i)
+      if (all || draws_.chance(0.4)) child.at[i] = clamped(i, child.at[i] + child.sigma * draws_.normal());
+    return child;
+  }
+
+  int visit(Branch& branch) {
+    const Masks rest = rest_of(branch);
+    Solution one = only(branch.path, solution_);
+    double best = score(rest, branch);
+    for (int step = 0; step < settings_.steps_per_visit; ++step) {
+      Branch candidate = mutated(branch);
+      draw(candidate, one);
+      const double value = score(rest, candidate);
+      if (value <= best && candidate.too_far_m <= branch.too_far_m) {
+        const double sigma = candidate.sigma * (value < best ? kWiden : 1);
+        best = value;
+        branch = std::move(candidate);
+        branch.sigma = std::min(kWidest, sigma);
+      } else {
+        branch.sigma = std::max(kNarrowest, branch.sigma * kNarrow);
+      }
+    }
+    if (branch.sigma == kNarrowest) branch.sigma = kFirstSigma;
+    return settings_.steps_per_visit;
+  }
+
+  void finish() {
+    for (const Branch& branch : branches_) write_offsets(branch, solution_.overrides);
+    std::erase_if(solution_.overrides.nodes, [](const OverrideNode& node) {
+      return node.set.overrides.empty() && node.set.shares.empty();
+    });
+    Masks masks;
+    drawer_.draw(solution_, nullptr, masks);
+    solution_.score = mean_dissimilarity(task_, masks);
+  }
+
+  const FitTask& task_;
+  const RefinementSettings& settings_;
+  Solution& solution_;
+  Drawer drawer_;
+  ReachLimit reach_limit_;
+  Draws draws_;
+  std::vector<Branch> branches_;
+  Masks fixed_, joined_;
+};
+
+}  // namespace
+
+double score_of(const FitTask& task, const Solution& solution) {
+  Masks masks;
+  Drawer(task).draw(solution, nullptr, masks);
+  return mean_dissimilarity(task, masks);
+}
+
+long refine_branches(const FitTask& task, const RefinementSettings& settings, Solution& solution) {
+  Solution refined = solution;
+  const long steps = Refinement(task, settings, refined).run();
+  if (refined.score <= solution.score) solution = std::move(refined);  // else: a bit lost in writing it down
+  return steps;
+}
+
+}  // namespace espalier

@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include <espalier/core/error.h>
+#include <espalier/core/parallel_for.h>
+#include <espalier/fitting/branches/branch_refinement.h>
+#include <espalier/fitting/branches/branch_rounds.h>
+#include <espalier/overrides/overrides_toml.h>
+
+namespace espalier {
+
+namespace {
+
+constexpr std::size_t kLanes = 2;
+
+/// What is refined in one round, and by how many steps: a step on the trunk grows the whole tree.
+struct RoundKind {
+  int order;
+  long steps;
+};
+constexpr std::array<RoundKind, 8> kCycle{
+    {{0, 100}, {1, 2000}, {1, 2000}, {2, 2000}, {1, 2000}, {2, 2000}, {2, 2000}, {3, 2000}}};
+
+nlohmann::ordered_json row_to_json(const RoundRow& row) {
+  const MaskMetrics& m = row.metrics;
+  return {
+      {"stage", row.stage},
+      {"steps", row.steps},
+      {"seconds", row.seconds},
+      {"score", row.score},
+      {"own_score", row.own_score},
+      {"metrics",
+       {m.pixel_accuracy, m.iou, m.dice, m.tolerant_iou, m.outline_iou, m.truncated_distance, m.gap_iou}}};
+}
+
+RoundRow row_from_json(const nlohmann::json& json) {
+  const auto m = json.at("metrics").get<std::array<double, 7>>();
+  RoundRow row;
+  row.stage = json.value("stage", "branches");  // earlier versions had no other
+  row.steps = json.at("steps");
+  row.seconds = json.at("seconds");
+  row.score = json.at("score");
+  row.own_score = json.value("own_score", row.score);  // earlier versions had one measure
+  row.metrics = {m[0], m[1], m[2], m[3], m[4], m[5], m[6]};
+  return row;
+}
+
+}  // namespace
+
+const Solution& BranchRounds::best() const {
+  return *std::min_element(lanes.begin(), lanes.end(),
+                           [](const Solution& a, const Solution& b) { return a.score < b.score; });
+}
+
+BranchRounds begin_branch_rounds(const FitTask& task, const std::vector<Solution>& starts,
+                                 long search_evaluations) {
+  BranchRounds state{.search_evaluations = search_evaluations};
+  for (std::size_t lane = 0; lane < kLanes; ++lane) state.lanes.push_back(starts[lane % starts.size()]);
+  rescore(task, state);
+  return state;
+}
+
+void rescore(const FitTask& task, BranchRounds& state) {
+  for (Solution& lane : state.lanes) lane.score = score_of(task, lane);
+}
+
+void refine_round(const FitTask& task, Seed seed, int threads, BranchRounds& state) {
+  const RoundKind kind = kCycle[static_cast<std::size_t>(state.rounds) % kCycle.size()];
+  std::vector<long> steps(state.lanes.size(), 0);
+  const RandomKey key = child_key(root_key(seed), static_cast<std::uint64_t>(state.rounds));
+  const auto refine_lane = [&](std::size_t lane) {
+    RefinementSettings settings{.order = kind.order, .steps = kind.steps, .key = child_key(key, lane)};
+    steps[lane] = refine_branches(task, settings, state.lanes[lane]);
+  };
+  parallel_for(state.lanes.size(), refine_lane, threads);
+  for (const long made : steps) state.steps += made;
+  ++state.rounds;
+  if (state.rounds % static_cast<long>(kCycle.size()) != 0) return;
+  const Solution best = state.best();
+  for (Solution& lane : state.lanes) lane = best;
+}
+
+std::string branch_rounds_to_json(const BranchRounds& state, const std::string& model) {
+  nlohmann::ordered_json json = {{"model", model},
+                                 {"rounds", state.rounds},
+                                 {"finish_from", state.finish_from},
+                                 {"steps", state.steps},
+                                 {"search_evaluations", state.search_evaluations},
+                                 {"search_limit", state.search_limit}};
+  for (const Solution& lane : state.lanes)
+    json["lanes"].push_back({{"values", lane.values},
+                             {"plant_seed", lane.plant_seed},
+                             {"score", lane.score},
+                             {"overrides", overrides_to_toml(lane.overrides)}});
+  for (const RoundRow& row : state.history) json["history"].push_back(row_to_json(row));
+  return json.dump(1) + "\n";
+}
+
+BranchRounds branch_rounds_from_json(const std::string& text, const std::string& source) {
+  try {
+    const nlohmann::json json = nlohmann::json::parse(text);
+    BranchRounds state{.rounds = json.at("rounds"),
+                       .finish_from = json.value("finish_from", -1L),
+                       .steps = json.at("steps"),
+                       .search_evaluations = json.at("search_evaluations"),
+                       .search_limit = json.at("search_limit")};
+    for (const nlohmann::json& from : json.at("lanes")) {
+      Solution lane;
+      lane.values = from.at("values").get<ParameterValues>();
+      lane.plant_seed = from.at("plant_seed");
+      lane.score = from.at("score");
+      const toml::table overrides = parse_toml(from.at("overrides").get<std::string>(), source);
+      read_overrides({overrides, source}, lane.overrides);
+      state.lanes.push_back(std::move(lane));
+    }
+    if (json.contains("history"))
+      for (const nlohmann::json& row : json.at("history")) state.history.push_back(row_from_json(row));
+    if (state.lanes.empty()) throw_input_error("{}: got no lanes, expected one or more", source);
+    return state;
+  } catch (const nlohmann::json::exception& error) {
+    throw_input_error("{}: got '{}', expected the state of a refinement", source, error.what());
+  }
+}
+
+}  // namespace espalier

@@ -1,0 +1,21 @@
+// A start for branch by branch refinement, where the picture shows the branches: trunk and branches are
+// traced along the medial axes of the mask (image/reading/medial_axes.h), and each axis becomes one branch of
+// a plain tree, bent, turned and shortened by overrides until it lies on its axis. How far a branch comes out
+// of the picture's plane no silhouette says: each gets a moderate angle towards the viewer or away from him,
+// so that the tree is not flat.
+#pragma once
+#include <espalier/fitting/branches/solution.h>
+#include <espalier/fitting/task/fit_task.h>
+
+namespace espalier {
+
+struct TracingSettings {
+  double shortest = 0.03;  ///< axis that becomes a branch, as a share of the picture's tree
+  RandomKey key;           ///< of the search's draws
+};
+
+/// The traced tree, with `start`'s leaves and bark, and its score. `start` itself where the model has
+/// not the parameters of a plain tree (Weber–Penn), or the mask no axes. Only the first view is traced.
+Solution trace_branches(const FitTask& task, const TracingSettings& settings, const Solution& start);
+
+}  // namespace espalier

@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <cmath>
+
+#include <espalier/core/error.h>
+#include <espalier/fitting/picture/picture_reading.h>
+#include <espalier/fitting/picture/trunk_measures.h>
+#include <espalier/image/masks/convex_hull.h>
+#include <espalier/image/masks/mask_box.h>
+#include <espalier/image/masks/morphology.h>
+
+namespace espalier {
+
+namespace {
+
+/// The mask with a frame around it, so that closing is not cut off.
+Mask padded(const Mask& mask, int frame_px) {
+  Mask wide(mask.width_px() + 2 * frame_px, mask.height_px() + 2 * frame_px);
+  for (int y = 0; y < mask.height_px(); ++y)
+    for (int x = 0; x < mask.width_px(); ++x)
+      if (mask.get(x, y)) wide.set(x + frame_px, y + frame_px);
+  return wide;
+}
+
+double cover_of(const Mask& mask, const MaskBox& box) {
+  constexpr double kGapsClosed = 0.08;  ///< of the height: wider than gaps between twigs
+  const int radius_px = std::max(1, static_cast<int>(std::lround(kGapsClosed * box.height())));
+  const Mask outline = fill_holes(close_disc(padded(mask, 2 * radius_px), radius_px));
+  return static_cast<double>(area_px(mask)) / static_cast<double>(area_px(outline));
+}
+
+/// Winter trees and palms are open: most of their convex hull is background, and what their closed outline
+/// holds is not filled either, unless their branches are few. A palm has a high, thin trunk below its fronds.
+/// The limits are where the pictures of the species presets, bare and in leaf, and of trees that no generator
+/// made fall apart.
+TreeKind kind_of(const PictureReading& reading) {
+  const bool has_few_branches = reading.hull_cover < 0.35;
+  const bool is_open = reading.hull_cover < 0.51 && reading.cover < 0.745;
+  const bool is_open_crown = reading.hull_cover < 0.56 && reading.cover < 0.8;
+  if (is_open_crown && reading.crown_base >= 0.4 && reading.trunk_width < 0.15) return TreeKind::palm;
+  return has_few_branches || is_open ? TreeKind::leafless : TreeKind::leafy;
+}
+
+}  // namespace
+
+PictureReading read_picture(const Mask& mask) {
+  const MaskBox box = box_of(mask);
+  if (box.is_empty()) throw_input_error("picture: got an empty mask, expected a tree");
+  const double height = box.height();
+  const TrunkMeasures trunk = measure_trunk(mask, box);
+  PictureReading reading;
+  reading.height_px = box.height();
+  reading.trunk_width = trunk.width_px / height;
+  reading.foot_width = trunk.foot_width_px / height;
+  reading.stand_height = trunk.stand_px / height;
+  reading.crown_base = trunk.bare_px / height;
+  reading.crown_width = box.width() / height;
+  reading.trunks = trunk.stems;
+  reading.cover = cover_of(mask, box);
+  reading.hull_cover = static_cast<double>(area_px(mask)) / convex_hull_area_px(mask);
+  reading.touches_frame = box.left == 0 || box.top == 0 || box.right == mask.width_px();
+  reading.kind = kind_of(reading);
+  return reading;
+}
+
+std::string kind_name(TreeKind kind) {
+  constexpr const char* kNames[] = {"leafy", "leafless", "palm"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+TreeKind kind_by_name(const std::string& name) {
+  for (const TreeKind kind : {TreeKind::leafless, TreeKind::palm})
+    if (kind_name(kind) == name) return kind;
+  return TreeKind::leafy;
+}
+
+}  // namespace espalier

@@ -1,0 +1,34 @@
+// Stage (a): what a mask says of its tree before anything is grown. All measures but one are relative to
+// the tree's height, so that they hold at any resolution.
+#pragma once
+#include <string>
+
+#include <espalier/image/masks/mask.h>
+
+namespace espalier {
+
+enum class TreeKind { leafy, leafless, palm };
+
+struct PictureReading {
+  TreeKind kind = TreeKind::leafy;
+  int height_px = 0;
+  double trunk_width = 0;      ///< a little above the foot, or above what the trunk stands on
+  double foot_width = 0;       ///< of the lowest row: where the trunk flares
+  double stand_height = 0;     ///< of a mound or a pot under the trunk; 0 for the ground
+  double crown_base = 0;       ///< height at which the outline becomes wider than a trunk
+  double crown_width = 0;      ///< of the whole tree
+  double cover = 0;            ///< set share of the filled outline: 1 - porosity
+  double hull_cover = 0;       ///< set share of the convex hull
+  int trunks = 1;              ///< separate stems at the foot
+  bool touches_frame = false;  ///< at the sides or the top: the picture cuts the tree off
+};
+
+/// Throws InputError for an empty mask.
+PictureReading read_picture(const Mask& mask);
+
+/// "leafy", "leafless", "palm".
+std::string kind_name(TreeKind kind);
+/// The inverse; leafy for any other name.
+TreeKind kind_by_name(const std::string& name);
+
+}  // namespace espalier

@@ -1,0 +1,72 @@
+#include <algorithm>
+
+#include <espalier/fitting/run/fit.h>
+#include <espalier/fitting/run/fit_run.h>
+#include <espalier/fitting/search/fit_objective.h>
+#include <espalier/fitting/starts/picture_choice.h>
+#include <espalier/fitting/task/record_task.h>
+#include <espalier/fitting/task/species_components.h>
+#include <espalier/models/models.h>
+
+namespace espalier {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+FitTask task_of(FitRecord& record, const FitOptions& options) {
+  FitTask task = make_task(record, options.model);
+  task.make_renderer = options.make_renderer;
+  hold_trunk(record, task);
+  return task;
+}
+
+struct StopAtOnce : Observer {
+  bool stop_requested() override { return true; }
+};
+
+struct NoScorer : Scorer {
+  void score(std::span<const ParameterValues>, std::span<double> scores) override {
+    std::fill(scores.begin(), scores.end(), 1.0);
+  }
+};
+
+/// Lets the optimiser check objective and settings before anything is written: it stops before it begins.
+void check_optimizer(const FitRecord& record, const Objective& objective) {
+  StopAtOnce stop;
+  optimizer_by_name(record.optimizer)
+      .minimize(objective, record.optimizer_settings, {kUnlimited}, {}, record.seed, stop);
+}
+
+/// The same for each of the searches the run will make.
+void check_searches(const FitRecord& record, const SearchSpace& space,
+                    const std::optional<SpeciesSpace>& species) {
+  NoScorer no_scorer;
+  check_optimizer(record, FitObjective(space, no_scorer));
+  if (species) check_optimizer(record, SpaceObjective(*species, {}, {}, no_scorer));
+}
+
+/// The species space the run searches first, if it does.
+std::optional<SpeciesSpace> space_of(const FitRecord& record, const Model& model) {
+  const int components = parse_search_space(record.space);
+  if (components == 0) return std::nullopt;
+  return bundled_species_space(model, components);
+}
+
+}  // namespace
+
+FitResult fit(const FitRecord& given, const fs::path& directory, const FitOptions& options) {
+  options.resume ? check_run_directory(directory) : check_new_directory(directory);
+  check_record(given);
+  FitRecord record = given;
+  const FitTask task = task_of(record, options);
+  const ParameterTable& table = task.model->table();
+  const std::optional<SpeciesSpace> species = space_of(record, *task.model);
+  check_searches(record, make_search_space(table, table.defaults(), record.search), species);
+  const std::vector<StartPoint> starts = starts_for(record, task);
+  begin_run_directory(directory, {.record = record, .task = task});
+  for (const std::string& warning : task.warnings) options.on_warning(warning);
+  return FitRun(record, task, directory, options).run(starts, species);
+}
+
+}  // namespace espalier

@@ -1,0 +1,147 @@
+#include <omp.h>
+
+#include <algorithm>
+
+#include <espalier/fitting/certainty/certainty_files.h>
+#include <espalier/fitting/run/fit_run.h>
+#include <espalier/fitting/starts/picture_choice.h>
+
+namespace espalier {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kRefreshSeconds = 3;   ///< the directory is at most this old, unless writing it is slow
+constexpr double kRefreshShare = 0.02;  ///< of the time, at most, is spent writing the directory
+
+/// A search that refinement had followed ends where it ended then.
+long evaluation_limit(const FitRecord& record, const fs::path& directory, const FitOptions& options) {
+  const auto reached = reached_rounds(record, directory, options);
+  return reached ? reached->search_evaluations : record.budget.evaluations;
+}
+
+}  // namespace
+
+std::optional<BranchRounds> reached_rounds(const FitRecord& record, const fs::path& directory,
+                                           const FitOptions& options) {
+  std::optional<BranchRounds> reached = options.resume ? read_branch_rounds(directory) : std::nullopt;
+  if (reached && reached->search_limit != record.budget.evaluations) reached.reset();
+  return reached;
+}
+
+FitRun::FitRun(const FitRecord& record, const FitTask& task, const fs::path& directory,
+               const FitOptions& options)
+    : record_(record),
+      threads_(options.threads > 0 ? options.threads : omp_get_num_procs()),
+      task_(task),
+      directory_(directory),
+      options_(options),
+      state_{.record = record, .task = task, .kind = kind_of(record, task)},
+      choice_(choice_for(record, task)),
+      log_(directory / "evaluations.bin"),
+      plant_scorer_(task, threads_),
+      scorer_(
+          plant_scorer_, log_, evaluation_limit(record, directory, options), [this] { return seconds(); },
+          [this](const ScoredBatch& batch) { on_scored(batch); }),
+      renderer_(task.make_renderer()),
+      given_overrides_(task.overrides) {}
+
+double FitRun::seconds() const {
+  return seconds_before_ + std::chrono::duration<double>(Clock::now() - live_since_).count();
+}
+
+bool FitRun::stop_requested() {
+  if (state_.stopped_by) return true;
+  const FitBudget& budget = record_.budget;
+  const bool refining = !state_.branches.lanes.empty();
+  const double best_score = refining ? state_.best.score : scorer_.best().score;
+  if (!refining && scorer_.limit_reached())
+    state_.stopped_by = "evaluations";
+  else if (budget.target_fitness > 0 && 1 - best_score >= budget.target_fitness)
+    state_.stopped_by = "target_fitness";
+  else if (scorer_.replaying())
+    return false;
+  else if (options_.stop_requested())
+    state_.stopped_by = "interrupted";
+  else if (budget.seconds > 0 && seconds() >= budget.seconds)
+    state_.stopped_by = "time";
+  return state_.stopped_by.has_value() || search_time_is_over();
+}
+
+void FitRun::refresh_directory() {
+  const double began = seconds();
+  if (state_.branches.lanes.empty()) state_.best = scorer_.best();
+  state_.evaluations = static_cast<long>(scorer_.evaluations());
+  state_.seconds = began;
+  state_.failures = plant_scorer_.failures();
+  write_run_directory(directory_, state_);
+  refreshed_at_ = seconds();
+  refresh_cost_ = refreshed_at_ - began;
+}
+
+void FitRun::refresh_directory_if_old() {
+  if (seconds() - refreshed_at_ > std::max(kRefreshSeconds, refresh_cost_ / kRefreshShare))
+    refresh_directory();
+}
+
+void FitRun::report_progress() const {
+  const FitBudget& budget = record_.budget;
+  const double score = state_.branches.lanes.empty() ? scorer_.best().score : state_.best.score;
+  FitProgress progress{scorer_.evaluations(), state_.branches.steps, seconds(), 1 - score, {}};
+  if (budget.seconds > 0) progress.seconds_left = std::max(0.0, budget.seconds - progress.seconds);
+  if (budget.evaluations > 0 && budget.branch_rounds == 0) {
+    const auto left = static_cast<double>(budget.evaluations - progress.evaluations);
+    const double by_count = left * progress.seconds / static_cast<double>(progress.evaluations);
+    progress.seconds_left = std::min(by_count, progress.seconds_left.value_or(by_count));
+  }
+  options_.on_progress(progress);
+}
+
+/// Of the same parameters and overrides, grown as if there were no picture to grow into.
+MaskMetrics FitRun::untrained_metrics() {
+  FitTask free = task_;
+  free.growth.prune_to = nullptr;
+  free.growth.train = false;
+  return mean_metrics(free, draw_candidate(free, state_.best.values, *renderer_, best_overrides(state_)));
+}
+
+FitResult FitRun::finish() {
+  if (state_.branches.lanes.empty()) state_.best = scorer_.best();
+  if (task_.growth.train) state_.metrics_untrained = untrained_metrics();
+  if (!state_.branches.lanes.empty())
+    state_.full_size = look_at_full_size(record_, task_, state_.branches.best());
+  refresh_directory();
+  const auto best_start =
+      std::max_element(state_.starts.begin(), state_.starts.end(),
+                       [](const auto& a, const auto& b) { return a.fitness < b.fitness; });
+  return {.values = state_.best.values,
+          .fitness = 1 - state_.best.score,
+          .overrides = best_overrides(state_),
+          .metrics = state_.best_metrics,
+          .full_size_metrics =
+              state_.full_size ? std::optional<MaskMetrics>(state_.full_size->metrics) : std::nullopt,
+          .evaluations = state_.evaluations,
+          .branch_steps = state_.branches.steps,
+          .seconds = state_.seconds,
+          .stopped_by = *state_.stopped_by,
+          .best_start = best_start->name,
+          .dimension = dimension_,
+          .failures = state_.failures,
+          .certainty = state_.archive ? certainty_in_words(state_.certainty, *state_.archive) : ""};
+}
+
+FitResult FitRun::run(std::vector<StartPoint> starts, const std::optional<SpeciesSpace>& species) {
+  std::vector<double> scores = score_starts(starts);
+  plant_scorer_.forgive_failures();
+  if (species) search_species(*species, starts, scores);
+  if (record_.stages.search)
+    search(starts, scores);
+  else
+    begin_from_best(starts, scores);
+  measure_how_sure();
+  if (will_refine()) refine();
+  return finish();
+}
+
+}  // namespace espalier

@@ -1,0 +1,119 @@
+// The stages of a run before branches: starts, the species space, parameters, and how sure they are.
+#include <algorithm>
+#include <numeric>
+
+#include <espalier/fitting/run/fit_run.h>
+#include <espalier/fitting/search/fit_objective.h>
+#include <espalier/fitting/starts/picture_choice.h>
+#include <espalier/fitting/task/record_task.h>
+
+namespace espalier {
+
+namespace {
+
+constexpr std::size_t kStartBatch = 8;  ///< start points scored between two looks at the clock
+constexpr std::size_t kMostStarts = 3;  ///< of the best, given to the optimiser
+constexpr long kCertaintyShare = 10;    ///< one evaluation to so many of the search tells how sure it is
+
+}  // namespace
+
+/// Where refinement follows for as long as time lasts.
+bool FitRun::search_time_is_over() const {
+  return record_.budget.branch_rounds == kWhileTimeLasts && will_refine() && state_.branches.lanes.empty() &&
+         record_.stages.search && seconds() >= search_share(state_.kind) * record_.budget.seconds;
+}
+
+void FitRun::on_scored(const ScoredBatch& batch) {
+  if (batch.replayed) {
+    seconds_before_ = batch.seconds;
+    live_since_ = Clock::now();
+  }
+  if (batch.improved)
+    state_.best_metrics = mean_metrics(task_, draw_candidate(task_, scorer_.best().values, *renderer_));
+  state_.trace.add(batch, scorer_.best().score, state_.best_metrics, stage_);
+  for (std::size_t i = 0; state_.archive && i < batch.scores.size(); ++i)
+    state_.archive->offer(batch.candidates[i], batch.scores[i]);
+  if (batch.replayed) return;
+  refresh_directory_if_old();
+  report_progress();
+}
+
+std::vector<double> FitRun::score_starts(const std::vector<StartPoint>& starts) {
+  std::vector<ParameterValues> candidates;
+  for (const StartPoint& start : starts) candidates.push_back(start.values);
+  std::vector<double> scores(candidates.size(), kNotEvaluated);
+  for (std::size_t first = 0; first < scores.size(); first += kStartBatch) {
+    if (first > 0 && stop_requested()) break;
+    const std::size_t count = std::min(kStartBatch, scores.size() - first);
+    scorer_.score(std::span(candidates).subspan(first, count), std::span(scores).subspan(first, count));
+  }
+  for (std::size_t i = 0; i < scores.size(); ++i)
+    if (scores[i] < kNotEvaluated) state_.starts.push_back({starts[i].name, 1 - scores[i]});
+  return scores;
+}
+
+MinimizeResult FitRun::minimize(const Objective& objective, long evaluations,
+                                std::span<const double> points) {
+  return optimizer_by_name(record_.optimizer)
+      .minimize(objective, record_.optimizer_settings, {evaluations}, points, record_.seed, *this);
+}
+
+/// Searches the coordinates from those of the best start, with its leaves or without; what it finds joins the
+/// starts.
+void FitRun::search_species(const SpeciesSpace& species, std::vector<StartPoint>& starts,
+                            std::vector<double>& scores) {
+  if (stop_requested()) return;
+  stage_ = "species_space";
+  const Model& model = *task_.model;
+  const auto best = static_cast<std::size_t>(std::min_element(scores.begin(), scores.end()) - scores.begin());
+  const ParameterValues start = starts[best].values;
+  const auto prepare = [&](ParameterValues& values) {
+    prepare_start(model, record_.growth, target_height_m(record_), task_.plant_seeds.front(), values);
+    if (!has_leaves(model.table(), start)) take_leaves(model.table(), values);
+    keep_in_ranges(model.table(), choice_, values);
+    apply_fixed(model.table(), choice_, values);
+  };
+  const SpaceObjective objective(species, start, prepare, scorer_);
+  const std::vector<double> begin = objective.box().unit(coordinates_of(species, start));
+  const MinimizeResult found = minimize(objective, record_.space_evaluations, begin);
+  if (found.best_point.empty()) return;
+  starts.push_back({"species space", objective.candidate(found.best_point)});
+  scores.push_back(found.best_value);
+  state_.starts.push_back({"species space", 1 - found.best_value});
+}
+
+void FitRun::search(const std::vector<StartPoint>& starts, const std::vector<double>& scores) {
+  std::vector<std::size_t> order(starts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return scores[a] < scores[b]; });
+  const SearchSpace space = make_search_space(task_.model->table(), starts[order[0]].values, choice_,
+                                              target_height_m(record_) / kNominalHeightM);
+  dimension_ = space.dimension();
+  if (stop_requested()) return;
+  std::vector<double> points;
+  for (std::size_t i = 0; i < std::min(kMostStarts, order.size()); ++i) {
+    const std::vector<double> point = space.encode(starts[order[i]].values);
+    points.insert(points.end(), point.begin(), point.end());
+  }
+  stage_ = "search";
+  state_.archive.emplace(space);
+  minimize(FitObjective(space, scorer_), kUnlimited, points);
+  if (!stop_requested()) state_.stopped_by = "converged";
+}
+
+/// Without a search.
+void FitRun::begin_from_best(const std::vector<StartPoint>& starts, const std::vector<double>& scores) {
+  const auto best = static_cast<std::size_t>(std::min_element(scores.begin(), scores.end()) - scores.begin());
+  if (!starts[best].overrides.empty()) given_overrides_ = starts[best].overrides;
+  if (!state_.stopped_by) state_.stopped_by = "stages";
+}
+
+/// From the search alone, so that it comes out the same when the run is resumed.
+void FitRun::measure_how_sure() {
+  if (!state_.archive || state_.stopped_by == "interrupted") return;
+  state_.certainty = measure_certainty(*state_.archive, plant_scorer_,
+                                       scorer_.evaluations() / kCertaintyShare, record_.seed);
+}
+
+}  // namespace espalier

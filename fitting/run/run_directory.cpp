@@ -1,0 +1,264 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include <espalier/core/error.h>
+#include <espalier/core/files.h>
+#include <espalier/fitting/certainty/certainty_files.h>
+#include <espalier/fitting/run/run_directory.h>
+#include <espalier/image/pictures/picture.h>
+#include <espalier/image/reading/frame.h>
+#include <espalier/image/reading/room_to_grow.h>
+#include <espalier/models/preset.h>
+#include <espalier/render/embree/embree_renderer.h>
+
+namespace espalier {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kOverlayPx = 512;  ///< overlays are enlarged to about this
+
+constexpr const char* kBranchesFile = "branches.json";
+
+/// "best.png" for the first mask, "best_2.png" for the second.
+fs::path numbered(const fs::path& directory, const std::string& stem, std::size_t index) {
+  return directory / (index == 0 ? stem + ".png" : fmt::format("{}_{}.png", stem, index + 1));
+}
+
+Picture enlarged(const Picture& picture, int factor) {
+  Picture large(picture.width_px * factor, picture.height_px * factor);
+  for (int y = 0; y < large.height_px; ++y)
+    for (int x = 0; x < large.width_px; ++x) large.at(x, y) = picture.at(x / factor, y / factor);
+  return large;
+}
+
+/// The outlines a trained tree was grown into, as its preset names them: files beside it.
+std::vector<GrownInto> grown_into(const RunState& state) {
+  std::vector<GrownInto> pictures;
+  if (!state.task.growth.train) return pictures;
+  for (std::size_t i = 0; i < state.task.views.size(); ++i) {
+    const TargetView& view = state.task.views[i];
+    pictures.push_back({numbered({}, "outline", i), state.record.views[i].view, view.metres_per_px,
+                        base_row_px(view.camera.height_px)});
+  }
+  return pictures;
+}
+
+std::string best_to_toml(const RunState& state) {
+  const std::string stem = state.record.views.front().picture.stem().string();
+  return preset_to_toml({stem + "_fit",
+                         fmt::format("fitted to {} with {}, seed {}: fitness {:.4f}",
+                                     state.record.views.front().picture.filename().string(),
+                                     state.record.optimizer, state.record.seed, 1 - state.best.score),
+                         state.record.model, state.best.values, best_overrides(state), grown_into(state)});
+}
+
+std::string archived_to_toml(const RunState& state, std::size_t index) {
+  const ArchivedSolution& solution = state.archive->solutions()[index];
+  Preset preset;
+  preset.name = fmt::format("{}_{}", state.record.views.front().picture.stem().string(), index + 1);
+  preset.description =
+      fmt::format("solution {} of the search: fitness {:.4f}, {:.2f} from the best", index + 1,
+                  1 - solution.score, distance_between(solution, state.archive->solutions().front()));
+  preset.model = state.record.model;
+  preset.values = solution.values;
+  preset.overrides = state.task.overrides;
+  preset.grown_into = grown_into(state);
+  return preset_to_toml(preset);
+}
+
+/// The outlines that trained trees are grown into.
+void write_outlines(const fs::path& directory, const RunState& state) {
+  for (std::size_t i = 0; i < state.task.views.size() && state.task.growth.train; ++i) {
+    const auto& target = state.task.views[i].target;
+    write_mask_png(numbered(directory, "outline", i), room_to_grow(target.outline(), target.mask()));
+  }
+}
+
+/// archive/1.toml and so on, the best first; what an earlier state left there goes.
+void write_archive(const fs::path& directory, const RunState& state) {
+  if (!state.archive) return;
+  const fs::path folder = directory / "archive";
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  if (!fs::exists(folder / "outline.png", ignored)) write_outlines(folder, state);
+  const std::vector<ArchivedSolution>& solutions = state.archive->solutions();
+  for (std::size_t i = 0; i < solutions.size(); ++i)
+    write_file_atomically(folder / fmt::format("{}.toml", i + 1), archived_to_toml(state, i));
+  for (std::size_t i = solutions.size() + 1; fs::remove(folder / fmt::format("{}.toml", i), ignored); ++i) {
+  }
+}
+
+std::optional<FitOutcome> outcome_of(const RunState& state) {
+  if (!state.stopped_by) return std::nullopt;
+  const BranchRounds& branches = state.branches;
+  const long finish_from = branches.finish_from >= 0 ? branches.finish_from : branches.rounds;
+  return FitOutcome{state.evaluations, branches.rounds, finish_from, *state.stopped_by};
+}
+
+/// The first seed's masks of all views.
+void write_best_pictures(const fs::path& directory, RunState& state) {
+  const auto draw = [&](SilhouetteRenderer& renderer) {
+    return draw_candidate(state.task, state.best.values, renderer, best_overrides(state));
+  };
+  const std::vector<Mask> best = draw(*state.task.make_renderer()), reference = draw(*make_embree_renderer());
+  state.embree_disagreement_px = 0;
+  for (std::size_t i = 0; i < state.task.views.size(); ++i) {
+    const Mask& target = state.task.views[i].target.mask();
+    state.embree_disagreement_px += differing_px(best[i], reference[i]);
+    write_mask_png(numbered(directory, "best", i), best[i]);
+    write_png(numbered(directory, "overlay", i),
+              enlarged(overlay(best[i], target), std::max(1, kOverlayPx / target.width_px())));
+  }
+}
+
+void write_full_size(const fs::path& directory, const FullSize& seen) {
+  for (std::size_t i = 0; i < seen.best.size(); ++i)
+    write_png(numbered(directory, "overlay_full_size", i), overlay(seen.best[i], seen.targets[i]));
+}
+
+void write_history(const fs::path& directory, const RunState& state) {
+  const LineChart chart = convergence_chart(state.trace.rows());
+  write_file_atomically(directory / "trace.csv", trace_to_csv(state.trace.rows()));
+  write_file_atomically(directory / "convergence.svg", chart_to_svg(chart));
+  write_png(directory / "convergence.png", chart_to_picture(chart));
+}
+
+nlohmann::ordered_json overlaps_to_json(const MaskMetrics& metrics) {
+  return {{"iou", metrics.iou},
+          {"tolerant_iou", metrics.tolerant_iou},
+          {"outline_iou", metrics.outline_iou},
+          {"gap_iou", metrics.gap_iou},
+          {"truncated_distance", metrics.truncated_distance}};
+}
+
+nlohmann::ordered_json archive_to_json(const SolutionArchive& archive) {
+  auto rows = nlohmann::ordered_json::array();
+  for (const ArchivedSolution& solution : archive.solutions())
+    rows.push_back({{"preset", fmt::format("archive/{}.toml", rows.size() + 1)},
+                    {"fitness", 1 - solution.score},
+                    {"distance", distance_between(solution, archive.solutions().front())}});
+  return rows;
+}
+
+nlohmann::ordered_json certainty_to_json(const CertaintyReport& report) {
+  nlohmann::ordered_json json = {{"tolerance", report.tolerance}, {"evaluations", report.evaluations}};
+  for (const Certainty certainty :
+       {Certainty::determined, Certainty::partly, Certainty::open, Certainty::no_effect}) {
+    auto& names = json[certainty_name(certainty)] = nlohmann::ordered_json::array();
+    for (const ParameterCertainty& row : report.parameters)
+      if (row.certainty == certainty) names.push_back(row.parameter.name);
+  }
+  return json;
+}
+
+}  // namespace
+
+const Overrides& best_overrides(const RunState& state) {
+  return state.branches.lanes.empty() ? state.task.overrides : state.branches.best().overrides;
+}
+
+std::optional<BranchRounds> read_branch_rounds(const fs::path& directory) {
+  const fs::path file = directory / kBranchesFile;
+  std::error_code error;
+  if (!fs::exists(file, error)) return std::nullopt;
+  return branch_rounds_from_json(read_file(file), file.string());
+}
+
+void check_new_directory(const fs::path& directory) {
+  std::error_code error;
+  const fs::file_status status = fs::status(directory, error);
+  if (status.type() == fs::file_type::not_found) return;
+  if (status.type() != fs::file_type::directory)
+    throw_input_error("{}: got {}, expected a directory to make", directory.string(),
+                      error ? error.message() : "a file");
+  if (fs::directory_iterator(directory, error) != fs::directory_iterator())
+    throw_input_error(
+        "{}: got a directory with files in it, expected a new one (--resume goes on with a run)",
+        directory.string());
+  if (error)
+    throw_input_error("{}: got '{}', expected a directory that can be read", directory.string(),
+                      error.message());
+}
+
+void check_run_directory(const fs::path& directory) {
+  std::error_code error;
+  if (!fs::is_directory(directory, error))
+    throw_input_error("{}: got no directory, expected that of a run", directory.string());
+  if (!fs::exists(directory / "run.toml", error))
+    throw_input_error("{}: got a directory without run.toml, expected that of a run", directory.string());
+}
+
+void begin_run_directory(const fs::path& directory, const RunState& state) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error)
+    throw_input_error("{}: got '{}', expected a directory that can be made", directory.string(),
+                      error.message());
+  write_file_atomically(directory / "run.toml", record_to_toml(state.record, std::nullopt));
+  for (std::size_t i = 0; i < state.task.views.size(); ++i)
+    write_mask_png(numbered(directory, "target", i), state.task.views[i].target.mask());
+  write_outlines(directory, state);
+}
+
+void write_run_directory(const fs::path& directory, RunState& state) {
+  write_best_pictures(directory, state);
+  if (state.full_size) write_full_size(directory, *state.full_size);
+  write_file_atomically(directory / "best.toml", best_to_toml(state));
+  if (!state.branches.lanes.empty())
+    write_file_atomically(directory / kBranchesFile,
+                          branch_rounds_to_json(state.branches, state.record.model));
+  write_history(directory, state);
+  write_archive(directory, state);
+  if (state.archive) write_certainty(directory, state.certainty, *state.archive);
+  write_file_atomically(directory / "summary.json", run_summary(state));
+  write_file_atomically(directory / "run.toml", record_to_toml(state.record, outcome_of(state)));
+}
+
+std::string run_summary(const RunState& state) {
+  nlohmann::ordered_json summary;
+  summary["fitness"] = 1 - state.best.score;
+  summary["iou"] = state.best_metrics.iou;
+  summary["tolerant_iou"] = state.best_metrics.tolerant_iou;
+  summary["outline_iou"] = state.best_metrics.outline_iou;
+  summary["gap_iou"] = state.best_metrics.gap_iou;
+  summary["pixel_accuracy"] = state.best_metrics.pixel_accuracy;
+  summary["dice"] = state.best_metrics.dice;
+  summary["truncated_distance"] = state.best_metrics.truncated_distance;
+  summary["evaluations"] = state.evaluations;
+  summary["branch_rounds"] = state.branches.rounds;
+  summary["branch_steps"] = state.branches.steps;
+  summary["kind"] = state.kind;
+  summary["trained_to_target"] = state.task.growth.train;
+  if (state.metrics_untrained) summary["without_training"] = overlaps_to_json(*state.metrics_untrained);
+  if (state.full_size) {
+    summary["full_size"] = overlaps_to_json(state.full_size->metrics);
+    summary["full_size"]["size_px"] = state.full_size->best.front().width_px();
+  }
+  summary["best_at_evaluation"] = state.best.evaluation;
+  summary["seconds"] = state.seconds;
+  summary["evaluations_per_second"] =
+      state.seconds > 0 ? static_cast<double>(state.evaluations) / state.seconds : 0;
+  summary["stopped_by"] = state.stopped_by.value_or("still running, or killed");
+  summary["optimizer"] = state.record.optimizer;
+  summary["objective"] = state.record.objective;
+  summary["model"] = state.record.model;
+  summary["seed"] = state.record.seed;
+  summary["fit_seeds"] = state.record.fit_seeds;
+  summary["size_px"] = state.record.target.size_px;
+  summary["embree_disagreement_pixels"] = state.embree_disagreement_px;
+  if (state.failures.count > 0)
+    summary["failed_candidates"] = {{"count", state.failures.count}, {"first", state.failures.first}};
+  if (state.record.height_m) summary["height_m"] = *state.record.height_m;
+  for (const ViewRecord& view : state.record.views) summary["pictures"].push_back(view.picture.string());
+  if (!state.task.warnings.empty()) summary["warnings"] = state.task.warnings;
+  if (state.archive) summary["archive"] = archive_to_json(*state.archive);
+  if (!state.certainty.parameters.empty()) summary["parameters"] = certainty_to_json(state.certainty);
+  for (const ScoredStart& start : state.starts)
+    summary["starts"].push_back({{"name", start.name}, {"fitness", start.fitness}});
+  return summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace espalier

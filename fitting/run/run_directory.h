@@ -1,0 +1,68 @@
+// The directory a run leaves: every file is replaced whole, so a run killed at any moment leaves a valid
+// one. run.toml and evaluations.bin repeat or resume it; plots read the other files only.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <espalier/fitting/branches/branch_rounds.h>
+#include <espalier/fitting/certainty/certainty.h>
+#include <espalier/fitting/run/full_size.h>
+#include <espalier/fitting/search/logged_scorer.h>
+#include <espalier/fitting/search/trace.h>
+#include <espalier/fitting/task/fit_record.h>
+#include <espalier/fitting/task/fit_task.h>
+#include <espalier/fitting/task/plant_scorer.h>
+
+namespace espalier {
+
+/// A start point and how it scored.
+struct ScoredStart {
+  std::string name;
+  double fitness = 0;
+};
+
+/// All that the files of a run are made from.
+struct RunState {
+  const FitRecord& record;
+  const FitTask& task;
+  std::vector<ScoredStart> starts = {};
+  BestCandidate best = {};
+  MaskMetrics best_metrics = {};
+  Trace trace = {};
+  BranchRounds branches = {};                         ///< of the refinement; no lanes before it begins
+  std::string kind = {};                              ///< of the tree, as it was read off the picture
+  std::optional<MaskMetrics> metrics_untrained = {};  ///< of the same tree grown without the envelope
+  std::optional<FullSize> full_size = {};             ///< once branches are refined
+  long evaluations = 0;
+  double seconds = 0;
+  std::optional<std::string> stopped_by = {};  ///< none while it runs
+  std::size_t embree_disagreement_px = 0;
+  CandidateFailures failures = {};              ///< since the run began or was resumed
+  std::optional<SolutionArchive> archive = {};  ///< of the search of the parameters, once it begins
+  CertaintyReport certainty = {};               ///< after it
+};
+
+/// What the branches of the best tree are overridden by.
+const Overrides& best_overrides(const RunState& state);
+
+/// The refinement that a run in the directory had reached; none where it had not begun.
+std::optional<BranchRounds> read_branch_rounds(const std::filesystem::path& directory);
+
+/// Throws InputError unless `directory` is missing or empty, and not a file.
+void check_new_directory(const std::filesystem::path& directory);
+
+/// Throws InputError unless it holds a run that can go on.
+void check_run_directory(const std::filesystem::path& directory);
+
+/// Makes the directory and writes run.toml and the target masks. Throws InputError where it cannot.
+void begin_run_directory(const std::filesystem::path& directory, const RunState& state);
+
+/// Draws the best candidate, counts where Embree disagrees, and replaces all files but the log.
+void write_run_directory(const std::filesystem::path& directory, RunState& state);
+
+/// summary.json.
+std::string run_summary(const RunState& state);
+
+}  // namespace espalier

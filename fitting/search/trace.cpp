@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include <espalier/fitting/search/trace.h>
+
+namespace espalier {
+
+namespace {
+
+constexpr std::size_t kMostChartDots = 400;
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+void Trace::add(const ScoredBatch& batch, double best_score, const MaskMetrics& best_metrics,
+                const std::string& stage) {
+  pending_scores_.insert(pending_scores_.end(), batch.scores.begin(), batch.scores.end());
+  const bool whole_row =
+      batch.improved || batch.scores.size() > 1 || pending_scores_.size() >= kRowEvaluations;
+  if (!whole_row) return;
+  const auto [least, most] = std::minmax_element(pending_scores_.begin(), pending_scores_.end());
+  rows_.push_back({.evaluations = batch.first_evaluation + static_cast<long>(batch.scores.size()),
+                   .seconds = batch.seconds,
+                   .improved = batch.improved,
+                   .best = 1 - best_score,
+                   .batch_best = 1 - *least,
+                   .batch_median = 1 - median_of(pending_scores_),
+                   .batch_worst = 1 - *most,
+                   .metrics = best_metrics,
+                   .stage = stage});
+  pending_scores_.clear();
+}
+
+void Trace::add_round(long evaluations, double seconds, bool improved, double best_score,
+                      const MaskMetrics& best_metrics, const std::string& stage) {
+  const double fitness = 1 - best_score;
+  rows_.push_back({.evaluations = evaluations,
+                   .seconds = seconds,
+                   .improved = improved,
+                   .best = fitness,
+                   .batch_best = fitness,
+                   .batch_median = fitness,
+                   .batch_worst = fitness,
+                   .metrics = best_metrics,
+                   .stage = stage});
+}
+
+std::string trace_to_csv(const std::vector<TraceRow>& rows) {
+  std::string csv =
+      "evaluations,seconds,event,best,batch_best,batch_median,batch_worst,"
+      "pixel_accuracy,iou,dice,tolerant_iou,outline_iou,gap_iou,truncated_distance,stage\n";
+  for (const TraceRow& row : rows)
+    csv += fmt::format(
+        "{},{:.3f},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{}\n",
+        row.evaluations, row.seconds, row.improved ? "improvement" : "batch", row.best, row.batch_best,
+        row.batch_median, row.batch_worst, row.metrics.pixel_accuracy, row.metrics.iou, row.metrics.dice,
+        row.metrics.tolerant_iou, row.metrics.outline_iou, row.metrics.gap_iou,
+        row.metrics.truncated_distance, row.stage);
+  return csv;
+}
+
+LineChart convergence_chart(const std::vector<TraceRow>& rows) {
+  ChartLine best{"best so far", {0, 114, 178}, 3, false, {}};
+  ChartLine median{"median of the batch", {230, 159, 0}, 5, true, {}};
+  const std::size_t stride = rows.size() / kMostChartDots + 1;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto evaluations = static_cast<double>(rows[i].evaluations);
+    if (rows[i].improved || i + 1 == rows.size()) {
+      if (!best.points.empty()) best.points.emplace_back(evaluations, best.points.back().second);  // a step
+      best.points.emplace_back(evaluations, rows[i].best);
+    }
+    if (i % stride == 0 && rows[i].batch_median >= 0)
+      median.points.emplace_back(evaluations, rows[i].batch_median);
+  }
+  return {"evaluations", "fitness (1 - dissimilarity)", {median, best}};
+}
+
+}  // namespace espalier

@@ -1,0 +1,46 @@
+// The history of a run: one row per improvement and per batch (a generation of a population method).
+// Methods that evaluate one candidate at a time get a row every kRowEvaluations. Fitness is
+// 1 - dissimilarity; it is negative for candidates beyond the growth budget.
+#pragma once
+#include <string>
+#include <vector>
+
+#include <espalier/charts/line_chart.h>
+#include <espalier/fitting/search/logged_scorer.h>
+#include <espalier/image/measures/compare.h>
+
+namespace espalier {
+
+inline constexpr std::size_t kRowEvaluations = 20;
+
+struct TraceRow {
+  long evaluations = 0;
+  double seconds = 0;
+  bool improved = false;
+  double best = 0;                                           ///< fitness of the run so far
+  double batch_best = 0, batch_median = 0, batch_worst = 0;  ///< fitness since the row before
+  MaskMetrics metrics;                                       ///< of the best so far
+  std::string stage;                                         ///< "starts", "species_space" or "search"
+};
+
+class Trace {
+ public:
+  /// best_metrics: of the best candidate after this batch, whose score is `best_score`. stage: of the run.
+  void add(const ScoredBatch& batch, double best_score, const MaskMetrics& best_metrics,
+           const std::string& stage = "search");
+  /// A row of a stage whose evaluations are not scored in batches.
+  void add_round(long evaluations, double seconds, bool improved, double best_score,
+                 const MaskMetrics& best_metrics, const std::string& stage);
+  const std::vector<TraceRow>& rows() const { return rows_; }
+
+ private:
+  std::vector<TraceRow> rows_;
+  std::vector<double> pending_scores_;
+};
+
+std::string trace_to_csv(const std::vector<TraceRow>& rows);
+
+/// Fitness over evaluations: the best so far, and the median of each batch.
+LineChart convergence_chart(const std::vector<TraceRow>& rows);
+
+}  // namespace espalier

@@ -1,0 +1,24 @@
+// Stage (b): starts made to the measure of the picture, and the ranges that keep the search at plausible
+// plants: wood no thicker than the trunk that is seen, leaves no longer than leaves are, a crown that begins
+// where the picture's does. This file knows the names of the Weber–Penn model's parameters; a model without
+// them is left as it is.
+#pragma once
+#include <map>
+#include <string>
+
+#include <espalier/fitting/picture/picture_reading.h>
+#include <espalier/fitting/task/search_space.h>
+#include <espalier/plant/model.h>
+
+namespace espalier {
+
+/// Ranges by full names of parameters, for a tree `height_m` tall.
+std::map<std::string, SearchRange> measured_ranges(const PictureReading& reading, TreeKind kind,
+                                                   double height_m);
+
+/// Gives a preset, which is `height_m` tall, the picture's trunk, height of the crown and width of the crown,
+/// as far as the preset's form lets it.
+void take_measures(const Model& model, const GrowthBudget& budget, const PictureReading& reading,
+                   double height_m, Seed plant_seed, ParameterValues& values);
+
+}  // namespace espalier

@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <espalier/core/error.h>
+#include <espalier/fitting/starts/start_points.h>
+#include <espalier/fitting/starts/thinning.h>
+#include <espalier/models/preset.h>
+
+namespace espalier {
+
+namespace {
+
+void set_if_known(const ParameterTable& table, const std::string& name, double value,
+                  ParameterValues& values) {
+  if (const auto row = table.find(name)) values[*row] = value;
+}
+
+std::vector<std::string> split_at_commas(const std::string& text) {
+  std::vector<std::string> parts;
+  std::stringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');)
+    if (!part.empty()) parts.push_back(part);
+  return parts;
+}
+
+/// The height of the grown plant above its base, or 0 where it does not grow.
+double grown_height_m(const Model& model, const GrowthSettings& settings, const ParameterValues& values,
+                      Seed seed) {
+  Plant plant;
+  if (!model.generate(values, seed, settings, plant).grown) return 0;
+  return bounds(plant).upper.z;
+}
+
+/// Twice, because the smallest radii of the model do not scale.
+void scale_to_height(const Model& model, const GrowthBudget& budget, double height_m, Seed seed,
+                     ParameterValues& values) {
+  for (int pass = 0; pass < 2; ++pass) {
+    const double grown_m = grown_height_m(model, {budget, nullptr}, values, seed);
+    if (grown_m > 0) scale_plant(model.table(), height_m / grown_m, values);
+  }
+}
+
+}  // namespace
+
+std::vector<StartPoint> presets_as_written(const ParameterTable& table, const std::string& start) {
+  if (start == "defaults") return {{"defaults", table.defaults()}};
+  std::vector<StartPoint> points;
+  const bool automatic = start == "auto";
+  for (const std::string& name : automatic ? bundled_presets() : split_at_commas(start)) {
+    Preset preset = load_preset(name);
+    if (preset.model == table.model)
+      points.push_back({preset.name, std::move(preset.values), std::move(preset.overrides)});
+    else if (!automatic)
+      throw_input_error("--start: got '{}' of model {}, expected a preset of {}", name, preset.model,
+                        table.model);
+  }
+  if (points.empty()) points.push_back({"defaults", table.defaults()});
+  return points;
+}
+
+void scale_plant(const ParameterTable& table, double factor, ParameterValues& values) {
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    if (table.rows[i].unit == "m")
+      values[i] = std::clamp(values[i] * factor, table.rows[i].lower, table.rows[i].upper);
+}
+
+void prepare_start(const Model& model, const GrowthBudget& budget, double height_m, Seed plant_seed,
+                   ParameterValues& values) {
+  set_if_known(model.table(), "g_scale_v", 0, values);
+  set_if_known(model.table(), "relaxed_counts", 1, values);
+  thin_until_grown(model, budget, plant_seed, values);
+  scale_to_height(model, budget, height_m, plant_seed, values);
+}
+
+bool has_leaves(const ParameterTable& table, const ParameterValues& values) {
+  const auto row = table.find("leaf_blos_num");
+  return row && values[*row] != 0;
+}
+
+void take_leaves(const ParameterTable& table, ParameterValues& values) {
+  set_if_known(table, "leaf_blos_num", 0, values);
+}
+
+std::vector<StartPoint> make_start_points(const Model& model, const std::string& start,
+                                          const SearchChoice& choice, const GrowthBudget& budget,
+                                          double height_m, Seed plant_seed) {
+  const ParameterTable& table = model.table();
+  std::vector<StartPoint> points = presets_as_written(table, start);
+  const std::size_t presets = points.size();
+  for (std::size_t i = 0; i < presets; ++i) {
+    prepare_start(model, budget, height_m, plant_seed, points[i].values);
+    if (has_leaves(table, points[i].values)) {
+      points.push_back({points[i].name + " without leaves", points[i].values});
+      take_leaves(table, points.back().values);
+    }
+  }
+  for (StartPoint& point : points) apply_fixed(table, choice, point.values);
+  return points;
+}
+
+}  // namespace espalier

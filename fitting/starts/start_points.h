@@ -1,0 +1,44 @@
+// Where a fit begins: presets, made as tall as the target and thinned to the growth budget.
+// This file knows the names of the Weber–Penn model's parameters; a model without them is left as it is.
+#pragma once
+#include <string>
+#include <vector>
+
+#include <espalier/core/parameter_table.h>
+#include <espalier/core/random.h>
+#include <espalier/fitting/task/search_space.h>
+#include <espalier/overrides/overrides.h>
+#include <espalier/plant/model.h>
+
+namespace espalier {
+
+struct StartPoint {
+  std::string name;  ///< "quaking_aspen", "quaking_aspen without leaves"
+  ParameterValues values;
+  Overrides overrides = {};  ///< of a preset as it is written
+};
+
+/// Multiplies all values in metres by `factor` (clamped to what is valid): a similar plant.
+void scale_plant(const ParameterTable& table, double factor, ParameterValues& values);
+
+/// Makes a candidate of any plant: its size does not vary, counts may be relaxed, it is thinned until this
+/// seed's tree grows within the budget, and that tree is `height_m` tall.
+void prepare_start(const Model& model, const GrowthBudget& budget, double height_m, Seed plant_seed,
+                   ParameterValues& values);
+
+bool has_leaves(const ParameterTable& table, const ParameterValues& values);
+void take_leaves(const ParameterTable& table, ParameterValues& values);
+
+/// Presets by `start`, as make_start_points takes it, as they are written: with their overrides, not scaled
+/// and not thinned. Throws InputError as it does.
+std::vector<StartPoint> presets_as_written(const ParameterTable& table, const std::string& start);
+
+/// The start points of `start`: "auto" (each bundled preset of the model), "defaults" (those of the
+/// table), or names and paths of presets with commas between. Each preset also without its leaves, if it
+/// has any. Grown trees are `height_m` tall. Fixed values are set, counts may be relaxed, and the size does
+/// not vary from tree to tree. Throws InputError for presets that cannot be read or are of another model.
+std::vector<StartPoint> make_start_points(const Model& model, const std::string& start,
+                                          const SearchChoice& choice, const GrowthBudget& budget,
+                                          double height_m, Seed plant_seed);
+
+}  // namespace espalier

@@ -1,0 +1,95 @@
+// The record of a fit: everything that repeats it, as TOML (run.toml). Two runs of one record give the
+// same bits, whatever the threads; one that was stopped by time repeats by the evaluations it made.
+#pragma once
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <espalier/fitting/optimizers/optimizer.h>
+#include <espalier/fitting/task/fit_stages.h>
+#include <espalier/fitting/task/search_space.h>
+#include <espalier/image/reading/read_target.h>
+#include <espalier/plant/model.h>
+#include <espalier/render/camera.h>
+
+namespace espalier {
+
+/// A picture of the tree and where it was taken from.
+struct ViewRecord {
+  std::filesystem::path picture;
+  View view;
+};
+
+/// Of FitBudget::finish_from: the finish gets the last share of what limits the refinement, rounds or time.
+inline constexpr long kLastShare = -1;
+
+/// Ends of a run; the first reached stops it. 0 means no limit; one of the first two must be set.
+struct FitBudget {
+  long evaluations = 0;
+  double seconds = 60;
+  double target_fitness = 0;  ///< 1 - dissimilarity, in (0, 1]; 0: none
+  long branch_rounds = 0;  ///< of the refinement that follows the search, at most; kWhileTimeLasts: no limit
+  long finish_from = kLastShare;  ///< round at which the finish begins; kLastShare: for the last 40 %
+};
+
+/// Rounds of refinement until the seconds are over.
+inline constexpr long kWhileTimeLasts = -1;
+
+/// The objective of `espalier fit`: outline and distance lead to the ends of thin twigs, gaps keep a fit from
+/// filling a porous crown (experiments/closeness.md).
+inline constexpr const char* kFitObjective =
+    "0.25*truncated_distance+0.15*iou+0.15*tolerant_iou+0.3*outline_iou+0.15*gap_iou";
+
+struct FitRecord {
+  std::string model = "weber_penn";
+  std::vector<ViewRecord> views;  ///< at least one
+  TargetOptions target{.size_px = 128, .one_tree = true};
+  std::string target_hash;  ///< of the masks the fit saw; empty until they are read
+  std::string objective = "0.5*truncated_distance+0.5*iou";
+  int fit_seeds = 1;  ///< trees per candidate, grown with seeds seed, seed + 1, …
+  std::string optimizer = "cma_es";
+  OptimizerSettings optimizer_settings;
+  FitBudget budget;
+  FitStages stages;
+  GrowthBudget growth{6'000,
+                      60'000};  ///< species have 9,000 to 250,000 leaves: fewer make nests of thick wood
+  Seed seed = 1;
+  std::string start = "auto";
+  std::string space;  ///< "species:2": search two coordinates of the species space first; empty: do not
+  long space_evaluations = 300;  ///< most of that first search
+  SearchChoice search;
+  std::string kind =
+      "any";  ///< of tree: "auto" reads it off the picture; "any" searches with and without leaves
+  bool train_to_target = false;  ///< keep the tree inside of the pictures' outlines
+  std::optional<double> height_m;
+  std::map<std::string, std::string> versions;  ///< of the program and its libraries
+};
+
+/// What a finished run adds to its record.
+struct FitOutcome {
+  long evaluations = 0;    ///< of the search
+  long branch_rounds = 0;  ///< of the refinement
+  long finish_from = 0;    ///< round at which its finish began, or would have begun
+  std::string stopped_by;
+};
+
+/// Throws InputError where numbers are out of their ranges or names unknown (optimiser, objective, model).
+void check_record(const FitRecord& record);
+
+std::string record_to_toml(const FitRecord& record, const std::optional<FitOutcome>& outcome);
+
+struct RecordedRun {
+  FitRecord record;
+  std::optional<FitOutcome> outcome;
+};
+
+/// Reads run.toml. Throws InputError with file, line, key, got and expected.
+RecordedRun read_record(const std::filesystem::path& path);
+
+/// "FILE", "FILE:azimuth,elevation" or "FILE:azimuth,elevation,field_of_view" (degrees; with the
+/// last one in perspective). Throws InputError on numbers that are none or out of range.
+ViewRecord parse_view(const std::string& text);
+
+}  // namespace espalier

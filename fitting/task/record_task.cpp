@@ -1,0 +1,86 @@
+#include <espalier/core/error.h>
+#include <espalier/environment/picture_envelope.h>
+#include <espalier/fitting/task/record_task.h>
+#include <espalier/fitting/task/trunk_room.h>
+#include <espalier/image/reading/read_target.h>
+#include <espalier/image/reading/room_to_grow.h>
+#include <espalier/models/models.h>
+
+namespace espalier {
+
+namespace {
+
+/// FNV-1a over a mask's bits and the height of its tree, as hexadecimal digits.
+std::uint64_t hash_target(const TargetPicture& target, std::uint64_t hash) {
+  const auto add = [&hash](std::uint64_t word) {
+    for (int i = 0; i < 8; ++i, word >>= 8) hash = (hash ^ (word & 0xff)) * 0x100000001b3ull;
+  };
+  for (const std::uint64_t word : target.mask.words()) add(word);
+  add(static_cast<std::uint64_t>(target.tree_height_px * 256));
+  return hash;
+}
+
+/// Reads the pictures into the task and their hash into the record.
+void read_views(FitRecord& record, FitTask& task) {
+  std::uint64_t hash = 0xcbf29ce484222325ull;
+  for (const ViewRecord& view : record.views) {
+    const TargetPicture target = read_target(view.picture, record.target);
+    hash = hash_target(target, hash);
+    for (const std::string& fault : describe(target.faults, record.target.one_tree))
+      task.warnings.push_back(fmt::format("{}: {}", view.picture.string(), fault));
+    task.views.push_back(
+        make_target_view(target.mask, target.tree_height_px, view.view, target_height_m(record)));
+  }
+  const std::string hash_text = fmt::format("{:016x}", hash);
+  if (!record.target_hash.empty() && record.target_hash != hash_text)
+    throw_input_error("{}: got another picture than the run was begun with (hash {}, expected {})",
+                      record.views.front().picture.string(), hash_text, record.target_hash);
+  record.target_hash = hash_text;
+}
+
+/// Keeps the tree inside of the targets' outlines, with room beside their thin parts; where these leave no
+/// room for its trunk, it grows without them.
+void grow_into_pictures(const FitRecord& record, FitTask& task) {
+  std::vector<PictureOutline> outlines;
+  for (const TargetView& view : task.views)
+    outlines.push_back({view.camera, room_to_grow(view.target.outline(), view.target.mask())});
+  task.envelope = make_picture_envelope(std::move(outlines));
+  if (!leaves_room_for_trunk(*task.envelope, target_height_m(record))) {
+    task.envelope.reset();
+    task.warnings.push_back(
+        fmt::format("{}: its outline leaves no room for a trunk above the middle of the foot: fitted without "
+                    "--train-to-target",
+                    record.views.front().picture.string()));
+    return;
+  }
+  task.growth.prune_to = task.envelope.get();
+  task.growth.train = true;
+}
+
+}  // namespace
+
+double target_height_m(const FitRecord& record) { return record.height_m.value_or(kNominalHeightM); }
+
+FitTask make_task(FitRecord& record, const Model* model) {
+  FitTask task;
+  task.model = model ? model : &model_by_name(record.model);
+  task.growth.budget = record.growth;
+  task.objective = parse_objective(record.objective);
+  for (int i = 0; i < record.fit_seeds; ++i) task.plant_seeds.push_back(record.seed + static_cast<Seed>(i));
+  read_views(record, task);
+  if (record.train_to_target && !task.model->can_train())
+    throw_input_error(
+        "--train-to-target: got model '{}', which cannot grow into a picture, expected weber_penn",
+        record.model);
+  if (record.train_to_target) grow_into_pictures(record, task);
+  return task;
+}
+
+FitTask make_task_at(const FitRecord& record, int size_px, const Model* model) {
+  FitRecord resized = record;
+  resized.target.size_px = size_px;
+  resized.target_hash.clear();
+  return make_task(resized, model);
+}
+
+}  // namespace espalier

@@ -1,0 +1,154 @@
+// espalier lsystem: derives an L-system file and prints its string, draws it, or draws its growth.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <espalier/app/commands/commands.h>
+#include <espalier/app/growth_frames.h>
+#include <espalier/app/options/plant_options.h>
+#include <espalier/app/options/view_options.h>
+#include <espalier/core/error.h>
+#include <espalier/image/pictures/picture.h>
+#include <espalier/lsystem/derivation/derivation.h>
+#include <espalier/lsystem/drawing/plant_builder.h>
+#include <espalier/lsystem/files/bundled.h>
+#include <espalier/render/shading/shaded.h>
+
+namespace espalier {
+
+namespace {
+
+struct LsystemOptions {
+  std::string file;
+  std::optional<int> steps;
+  Seed seed = 1;
+  std::vector<std::string> assignments, volumes;
+  bool print_string = false;
+  std::optional<int> frames;
+  double frame_seconds = 0.1;
+  std::string output;
+  ViewOptions view;
+  ShadedSettings shading;
+  lsystem::Limits limits;
+};
+
+/// --set name=value
+void assign(const std::string& assignment, const ParameterTable& table, ParameterValues& values) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos) throw_input_error("--set {}: expected name=value", assignment);
+  const std::size_t row = table.index_of(assignment.substr(0, equals));
+  const std::string text = assignment.substr(equals + 1);
+  char* stop = nullptr;
+  values[row] = std::strtod(text.c_str(), &stop);
+  if (text.empty() || *stop != 0) throw_input_error("--set {}: '{}' is not a number", assignment, text);
+  check_value(table.rows[row], values[row], "--set " + assignment);
+}
+
+/// --volume name=text, metres.
+void replace_volume(const std::string& assignment, double unit_m, lsystem::Derivation& derivation) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos) throw_input_error("--volume {}: expected name=volume", assignment);
+  VolumePtr volume = read_volume(assignment.substr(equals + 1));
+  derivation.replace_volume(assignment.substr(0, equals),
+                            make_scaled(static_cast<float>(1 / unit_m), std::move(volume)));
+}
+
+void draw(const Plant& plant, const Camera& camera, const LsystemOptions& options, const std::string& path) {
+  write_png(path, render_shaded(plant, camera, options.shading));
+  fmt::print("{}: {}×{} px, {} stems, {} leaves\n", path, camera.width_px, camera.height_px,
+             plant.stems.size(), plant.leaves.size());
+}
+
+Plant plant_of(lsystem::Derivation& derivation) {
+  Plant plant;
+  lsystem::build_plant(derivation.interpreted(), derivation.alphabet(), derivation.settings(), plant);
+  return plant;
+}
+
+/// CLI11 would read -1 as the largest number there is.
+std::string reject_negative(const std::string& text) {
+  return text.starts_with('-') ? fmt::format("got {}, expected a whole number from 0", text) : "";
+}
+
+GrowthFrames frames_of(const LsystemOptions& options) {
+  return {options.frames.value_or(1), options.frame_seconds, options.output};
+}
+
+void check_options(const LsystemOptions& options) {
+  if (options.print_string && options.frames)
+    throw_input_error("got both --string and --frames, expected one of them");
+  if (options.print_string == !options.output.empty())
+    throw_input_error("got {} --string and -o, expected one of them",
+                      options.print_string ? "both" : "neither");
+  if (options.steps && *options.steps < 0)
+    throw_input_error("--steps {}: expected 0 or more", *options.steps);
+  if (options.frames) check_growth_frames(frames_of(options));
+  if (options.print_string) return;
+  check_view(options.view);
+  if (!options.frames) check_png_path(options.output);
+}
+
+void run_lsystem(const LsystemOptions& options) {
+  check_options(options);
+  const lsystem::Grammar grammar = lsystem::load_grammar(options.file);
+  ParameterValues values = grammar.parameters.defaults();
+  for (const std::string& assignment : options.assignments) assign(assignment, grammar.parameters, values);
+  lsystem::Derivation derivation(grammar, options.limits);
+  derivation.start(values, options.seed);
+  const double unit_m = derivation.settings().unit_m;
+  for (const std::string& volume : options.volumes) replace_volume(volume, unit_m, derivation);
+  if (!options.volumes.empty()) derivation.start(values, options.seed);
+  const int steps = options.steps.value_or(derivation.settings().steps);
+  if (options.frames)
+    return write_growth_frames(derivation, values, options.seed, steps, options.view, options.shading,
+                               frames_of(options));
+  derivation.run(steps);
+  if (options.print_string) return fmt::print("{}\n", derivation.text());
+  const Plant plant = plant_of(derivation);
+  draw(plant, camera_of(options.view, plant), options, options.output);
+}
+
+}  // namespace
+
+void add_lsystem_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("lsystem", "Derive an L-system: print its string or draw it");
+  const auto options = std::make_shared<LsystemOptions>();
+  command->add_option("file", options->file, "an .lsys file, or the name of a bundled one")->required();
+  command->add_option("--steps", options->steps, "derivation steps; else those the file says");
+  command->add_option("--seed", options->seed, "seed of the random numbers")
+      ->check(reject_negative)
+      ->capture_default_str();
+  command->add_option("--set", options->assignments, "change a parameter: name=value (repeatable)")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--volume", options->volumes,
+                   "NAME=VOLUME: instead of a volume that the file declares, in metres (repeatable); see "
+                   "--prune-to of render")
+      ->allow_extra_args(false);
+  command->add_flag("--string", options->print_string, "print the string instead of drawing it");
+  command->add_option("--frames", options->frames,
+                      "a growth sequence: an animated GIF of this many pictures, or for -o NAME.png "
+                      "NAME_000.png, NAME_001.png, …");
+  command->add_option("--frame-seconds", options->frame_seconds, "how long a GIF shows each picture")
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output, "the PNG to write; with --frames also a GIF");
+  add_view_options(*command, options->view);
+  command->add_flag("--ground", options->shading.ground,
+                    "a lawn; needs an elevation above 0 or --perspective");
+  command->add_option("--samples", options->shading.samples_per_px, "rays a pixel, 1 to 1024")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--max-modules", options->limits.modules, "longest string that may be derived")
+      ->check(reject_negative)
+      ->capture_default_str();
+  command
+      ->add_option("--max-lua", options->limits.lua_instructions,
+                   "instructions that the file's Lua code may run")
+      ->capture_default_str();
+  command->callback([options] { run_lsystem(*options); });
+}
+
+}  // namespace espalier

@@ -1,0 +1,85 @@
+// espalier species: lists the bundled presets, prints one in full, checks a file.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <set>
+#include <string>
+
+#include <espalier/app/commands/commands.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+#include <espalier/overrides/change_graph.h>
+#include <espalier/overrides/overrides_tree.h>
+
+namespace espalier {
+
+namespace {
+
+struct SpeciesOptions {
+  std::string preset;
+  std::string file_to_check;
+};
+
+/// "13 ± 3 m": the height of the tree, where the model has one.
+std::string height_text(const Preset& preset) {
+  const ParameterTable& table = model_by_name(preset.model).table();
+  const auto height = table.find("g_scale"), variation = table.find("g_scale_v");
+  if (!height || !variation) return "";
+  return fmt::format("{} ± {} m", preset.values[*height], preset.values[*variation]);
+}
+
+void list_species() {
+  for (const std::string& name : bundled_presets()) {
+    const Preset preset = load_preset(name);
+    fmt::print("{:<16} {:<12} {}\n", name, height_text(preset), preset.description);
+  }
+}
+
+void check_file(const std::string& file) {
+  const Preset preset = load_preset(file);
+  fmt::print("ok {}: {}, model {}, height {}\n", file, preset.name, preset.model, height_text(preset));
+}
+
+/// The overrides of single branches as a tree in comments; dormant ones are those that do not grow with
+/// seed 1.
+std::string branches_text(const Preset& preset) {
+  const ChangeGraph changes(preset.overrides);
+  const std::unique_ptr<Volume> envelope = envelope_of(preset.grown_into);
+  GrowthSettings settings{.prune_to = envelope.get(), .train = true, .changes = &changes};
+  Plant plant;
+  model_by_name(preset.model).generate(preset.values, 1, settings, plant);
+  std::set<BranchPath> grown;
+  for (std::size_t stem = 0; stem < plant.stems.size(); ++stem) grown.insert(path_of(plant, stem));
+  return "\n# Branches that are overridden, as they grow with seed 1:\n" +
+         overrides_tree(
+             preset.overrides, [&](const BranchPath& path) { return grown.contains(path); }, "# ");
+}
+
+void print_preset(const Preset& preset) {
+  fmt::print("{}", preset_to_toml(preset));
+  if (!preset.overrides.empty()) fmt::print("{}", branches_text(preset));
+}
+
+void run_species(const SpeciesOptions& options) {
+  if (!options.file_to_check.empty())
+    check_file(options.file_to_check);
+  else if (!options.preset.empty())
+    print_preset(load_preset(options.preset));
+  else
+    list_species();
+}
+
+}  // namespace
+
+void add_species_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("species", "List the bundled presets, print one as TOML, or check a file");
+  const auto options = std::make_shared<SpeciesOptions>();
+  CLI::Option* preset = command->add_option("preset", options->preset, "a bundled preset or a TOML file");
+  command->add_option("--check", options->file_to_check, "say whether this TOML file is a valid preset")
+      ->excludes(preset);
+  command->callback([options] { run_species(*options); });
+}
+
+}  // namespace espalier

@@ -1,0 +1,94 @@
+// Options of commands that grow one plant: preset, seed, changed parameters, pruning volume.
+#include <CLI/CLI.hpp>
+#include <charconv>
+
+#include <espalier/app/options/plant_options.h>
+#include <espalier/core/error.h>
+#include <espalier/environment/volume.h>
+#include <espalier/lsystem/derivation/derivation.h>
+#include <espalier/lsystem/files/bundled.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+#include <espalier/overrides/change_graph.h>
+
+namespace espalier {
+
+namespace {
+
+double parse_value(std::string_view text, const std::string& assignment) {
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || stop != text.data() + text.size())
+    throw_input_error("--set {}: '{}' is not a number", assignment, text);
+  return value;
+}
+
+/// A number, or the name of one of the row's choices.
+double value_of(const ParameterInfo& row, std::string_view text, const std::string& assignment) {
+  for (std::size_t i = 0; i < row.choices.size(); ++i)
+    if (row.choices[i] == text) return row.first_choice + static_cast<double>(i);
+  return parse_value(text, assignment);
+}
+
+void assign(const std::string& assignment, const ParameterTable& table, ParameterValues& values) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos) throw_input_error("--set {}: expected name=value", assignment);
+  const std::size_t row = table.index_of(assignment.substr(0, equals));
+  const std::string_view text = std::string_view(assignment).substr(equals + 1);
+  values[row] = value_of(table.rows[row], text, assignment);
+  check_value(table.rows[row], values[row], "--set " + assignment);
+}
+
+/// CLI11 would read -1 as the largest number there is.
+std::string reject_negative(const std::string& text) {
+  return text.starts_with('-') ? "got " + text + ", expected a whole number from 0" : "";
+}
+
+}  // namespace
+
+void add_plant_options(CLI::App& command, PlantOptions& options) {
+  command.add_option("preset", options.preset, "a bundled preset (see: espalier species) or a TOML file")
+      ->required();
+  command.add_option("--seed", options.seed, "seed of the random numbers")
+      ->check(reject_negative)
+      ->capture_default_str();
+  command.add_option("--set", options.assignments, "change a parameter: name=value (repeatable)")
+      ->allow_extra_args(false);
+  command.add_option(
+      "--prune-to", options.prune_to,
+      "keep the plant inside box:cx,cy,cz,sx,sy,sz, ball:cx,cy,cz,r, cylinder:cx,cy,cz,r,h, "
+      "mesh:FILE (metres), an expression such as \"union(ball(0,0,4, 2), box(0,0,1, 1,1,2))\", or "
+      "FILE.lsys:NAME, a volume of an L-system; an L-system's own volume 'clip' becomes this one");
+}
+
+std::unique_ptr<Volume> read_volume(const std::string& text) {
+  const std::size_t end = text.rfind(".lsys:");
+  if (end == std::string::npos) return parse_volume(text);
+  const std::string file = text.substr(0, end + 5), name = text.substr(end + 6);
+  const lsystem::Grammar grammar = lsystem::load_grammar(file);
+  lsystem::Derivation derivation(grammar);
+  derivation.start(1);
+  return make_scaled(static_cast<float>(derivation.settings().unit_m), derivation.volume(name));
+}
+
+Plant grow_plant(const PlantOptions& options) {
+  Preset preset = load_preset(options.preset);
+  const Model& model = model_by_name(preset.model);
+  for (const std::string& assignment : options.assignments) assign(assignment, model.table(), preset.values);
+  const std::unique_ptr<Volume> volume =
+      options.prune_to.empty() ? envelope_of(preset.grown_into) : read_volume(options.prune_to);
+  GrowthSettings settings;
+  settings.prune_to = volume.get();
+  settings.train = options.prune_to.empty();
+  const ChangeGraph changes(preset.overrides);
+  settings.changes = &changes;
+  Plant plant;
+  const GrowthResult result = model.generate(preset.values, options.seed, settings, plant);
+  if (!result.grown)
+    throw_input_error("{}: would have {:.3g} times as many stems or leaves as allowed ({:g} and {:g})",
+                      options.preset, result.over_budget_factor, settings.budget.max_stems,
+                      settings.budget.max_leaves);
+  return plant;
+}
+
+}  // namespace espalier

@@ -1,0 +1,36 @@
+// The options of commands that grow one plant, and the growing: preset, --seed, --set, --prune-to.
+// Shared by mesh, mask and render, so that the same words grow the same plant everywhere.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <espalier/core/random.h>
+#include <espalier/environment/volume.h>
+#include <espalier/plant/plant.h>
+
+namespace CLI {
+class App;
+}
+
+namespace espalier {
+
+struct PlantOptions {
+  std::string preset;                    ///< a bundled preset's name, or a file
+  Seed seed = 1;                         ///< of the random numbers
+  std::vector<std::string> assignments;  ///< "name=value", after the preset, in order
+  std::string prune_to;                  ///< a volume as text (environment/volume.h), empty for none
+};
+
+/// Adds the positional PRESET and the options --seed, --set and --prune-to to a command.
+void add_plant_options(CLI::App& command, PlantOptions& options);
+
+/// A volume as text (environment/volume.h), or "FILE.lsys:NAME", one that an L-system declares, with its
+/// default parameters. Metres. Throws InputError.
+std::unique_ptr<Volume> read_volume(const std::string& text);
+
+/// Grows the plant. Throws InputError for an unknown preset or parameter, a value outside its bounds, a bad
+/// volume, or a plant that would exceed the growth budget.
+Plant grow_plant(const PlantOptions& options);
+
+}  // namespace espalier

@@ -1,0 +1,28 @@
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include <espalier/app/options/target_options.h>
+
+namespace espalier {
+
+std::shared_ptr<TargetOptions> add_target_options(CLI::App& command) {
+  const auto options = std::make_shared<TargetOptions>();
+  command
+      .add_option_function<std::string>(
+          "--method", [options](const std::string& text) { options->method = parse_separation_method(text); },
+          "what tells the tree from the background: auto, alpha, luminance, background")
+      ->default_str("auto");
+  command
+      .add_option_function<std::string>(
+          "--side", [options](const std::string& text) { options->side = parse_tree_side(text); },
+          "which side of the threshold is the tree: auto, light (opaque), dark (transparent)")
+      ->default_str("auto");
+  command
+      .add_option("--speck", options->speck_px,
+                  "drop loose pieces under this many pixels of the picture (0: none; by default by its size)")
+      ->check(CLI::Range(0, 1'000'000));
+  command.add_flag("--fill-pinholes", options->fill_pinholes, "fill holes under the speck size");
+  return options;
+}
+
+}  // namespace espalier

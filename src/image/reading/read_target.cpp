@@ -1,0 +1,102 @@
+#include <espalier/core/error.h>
+#include <espalier/image/pictures/decode.h>
+#include <espalier/image/reading/clean.h>
+#include <espalier/image/reading/read_target.h>
+#include <espalier/image/reading/separate.h>
+
+namespace espalier {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A tree has at least this share of the picture's pixels.
+constexpr double kSmallestTreeShare = 1e-4;
+/// And leaves at least this share to the background.
+constexpr double kSmallestBackgroundShare = 1e-3;
+
+void check_shows_a_tree(const Mask& mask, const std::string& name, const std::string& how) {
+  const double all = static_cast<double>(mask.width_px()) * mask.height_px();
+  const double share = static_cast<double>(area_px(mask)) / all;
+  if (share == 0)
+    throw_input_error("{}: shows no tree: nothing stands out from the background ({})", name, how);
+  if (share < kSmallestTreeShare)
+    throw_input_error("{}: shows no tree: {} of {} pixels are set ({})", name, area_px(mask), all, how);
+  if (share > 1 - kSmallestBackgroundShare)
+    throw_input_error("{}: shows no tree: it has no background ({})", name, how);
+}
+
+/// Cleans the separated mask and says so in its `how`.
+void clean(Separation& separation, const TargetOptions& options) {
+  Mask& mask = separation.mask;
+  const std::size_t speck_px = options.speck_px >= 0 ? static_cast<std::size_t>(options.speck_px)
+                                                     : default_speck_px(mask.width_px(), mask.height_px());
+  const std::size_t before = area_px(mask);
+  mask = remove_specks(mask, speck_px);
+  separation.how += fmt::format("; specks under {} px removed ({} px)", speck_px, before - area_px(mask));
+  if (!options.fill_pinholes) return;
+  const std::size_t cleaned = area_px(mask);
+  mask = fill_pinholes(mask, speck_px);
+  separation.how += fmt::format("; pinholes under {} px filled ({} px)", speck_px, area_px(mask) - cleaned);
+}
+
+template <typename Value>
+Value parse_choice(const std::string& text, const char* what,
+                   std::initializer_list<std::pair<const char*, Value>> choices) {
+  std::string known;
+  for (const auto& [name, value] : choices) {
+    if (text == name) return value;
+    known += (known.empty() ? "" : ", ") + std::string(name);
+  }
+  throw_input_error("the {} '{}' is unknown, expected one of {}", what, text, known);
+}
+
+}  // namespace
+
+TargetPicture read_mask(const fs::path& path, const TargetOptions& options) {
+  const DecodedPicture picture = decode_picture(path);
+  Separation separation = separate_tree(picture, options.method, options.side, path.string());
+  check_shows_a_tree(separation.mask, path.string(), separation.how);
+  TargetPicture target;
+  target.mask = std::move(separation.mask);
+  target.source_width_px = picture.source_width_px;
+  target.source_height_px = picture.source_height_px;
+  target.frame_px_per_source_px =
+      static_cast<float>(picture.width_px) / static_cast<float>(picture.source_width_px);
+  target.how = std::move(separation.how);
+  return target;
+}
+
+TargetPicture read_target(const fs::path& path, const TargetOptions& options) {
+  check_frame_size(options.size_px);
+  TargetPicture source = read_mask(path, options);
+  Separation separation{std::move(source.mask), std::move(source.how)};
+  clean(separation, options);
+  check_shows_a_tree(separation.mask, path.string(), separation.how);
+  const PictureFaults faults = picture_faults(separation.mask);
+  if (options.one_tree && faults.trees > 1) {
+    separation.mask = largest_tree(separation.mask);
+    separation.how += fmt::format("; the largest of {} trees", faults.trees);
+  }
+  TargetPicture target = frame_mask(separation.mask, options.size_px, path.string());
+  target.frame_px_per_source_px *= source.frame_px_per_source_px;
+  target.source_width_px = source.source_width_px;
+  target.source_height_px = source.source_height_px;
+  target.how = fmt::format("{}; {}", separation.how, target.how);
+  target.faults = faults;
+  return target;
+}
+
+SeparationMethod parse_separation_method(const std::string& text) {
+  using enum SeparationMethod;
+  return parse_choice<SeparationMethod>(
+      text, "method",
+      {{"auto", automatic}, {"alpha", alpha}, {"luminance", luminance}, {"background", background}});
+}
+
+TreeSide parse_tree_side(const std::string& text) {
+  using enum TreeSide;
+  return parse_choice<TreeSide>(text, "side", {{"auto", automatic}, {"light", light}, {"dark", dark}});
+}
+
+}  // namespace espalier

@@ -1,0 +1,56 @@
+// A picture of a tree becomes the mask that a fit sees: decode (OpenImageIO), separate tree from
+// background, clean, place in the frame of image/reading/frame.h.
+// Lengths in pixels: of the frame, or "source px" for those of the picture file.
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include <espalier/image/masks/mask.h>
+#include <espalier/image/reading/frame.h>
+#include <espalier/image/reading/picture_faults.h>
+
+namespace espalier {
+
+/// How the tree is told from the background. automatic: alpha where it carries information; else
+/// luminance (Otsu's threshold) where the picture has two tones; else the colour that most of the border
+/// has, where it has one; else luminance.
+enum class SeparationMethod { automatic, alpha, luminance, background };
+
+/// Which side of the threshold is the tree. automatic: the one the border does not show.
+/// For alpha, light is the opaque side; for background, light is what differs from the border.
+enum class TreeSide { automatic, light, dark };
+
+struct TargetOptions {
+  int size_px = 256;  ///< side of the square frame, 16..4096
+  SeparationMethod method = SeparationMethod::automatic;
+  TreeSide side = TreeSide::automatic;
+  int speck_px = -1;           ///< pieces of the source smaller than this are dropped; -1: chosen by size
+  bool fill_pinholes = false;  ///< fill holes smaller than speck_px
+  bool one_tree = false;       ///< of several trees in a picture, the largest; else all as one
+};
+
+struct TargetPicture {
+  Mask mask;                 ///< size_px × size_px
+  float tree_height_px = 0;  ///< from the top of the tree to its base, in the frame
+  float frame_px_per_source_px = 1;
+  int source_width_px = 0, source_height_px = 0;
+  std::string how;       ///< one line: how the mask was made
+  PictureFaults faults;  ///< of the picture; only read_target looks for them
+};
+
+/// Throws InputError (one line, naming the file) for what is no readable picture, claims more than
+/// 100 Mpx, holds NaN, or shows no tree.
+TargetPicture read_target(const std::filesystem::path& path, const TargetOptions& options = {});
+
+/// Only separated and cleaned, in the picture's own size and place.
+TargetPicture read_mask(const std::filesystem::path& path, const TargetOptions& options = {});
+
+/// Places a mask that holds a tree in the frame of `size_px`. Throws InputError (opening with `name`)
+/// where nothing is set.
+TargetPicture frame_mask(const Mask& mask, int size_px, const std::string& name = "mask");
+
+/// Option names for the command line: "auto", "alpha", "luminance", "background"; "auto", "light", "dark".
+SeparationMethod parse_separation_method(const std::string& text);
+TreeSide parse_tree_side(const std::string& text);
+
+}  // namespace espalier

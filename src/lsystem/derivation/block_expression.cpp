@@ -1,0 +1,81 @@
+// Expressions for blocks of modules: a Program where they are plain arithmetic, else a Lua function.
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+#include <espalier/lsystem/derivation/rule.h>
+
+namespace espalier::lsystem {
+
+namespace {
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+/// The names an expression uses as variables or functions: words that follow neither '.' nor ':'.
+std::vector<std::string> names_in(std::string_view text) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t begin = i;
+    while (i < text.size() && is_word(text[i])) ++i;
+    const bool is_field = begin > 0 && (text[begin - 1] == '.' || text[begin - 1] == ':');
+    if (i > begin && !std::isdigit(static_cast<unsigned char>(text[begin])) && !is_field)
+      names.emplace_back(text.substr(begin, i - begin));
+    if (i == begin) ++i;
+  }
+  return names;
+}
+
+/// A name that is nothing would be nil, and an error only once it is used: better said when the file is read.
+void check_names(const Expression& expression, std::span<const std::string> columns, Workshop& workshop) {
+  static const std::set<std::string, std::less<>> kKnown{"and", "or", "not", "true", "false", "nil", "step"};
+  // Quotes, tables and functions inside an expression are left to Lua.
+  if (expression.text.find_first_of("\"'{[") != std::string::npos ||
+      expression.text.find("function") != std::string::npos)
+    return;
+  for (const std::string& name : names_in(expression.text)) {
+    if (kKnown.contains(name) || std::find(columns.begin(), columns.end(), name) != columns.end()) continue;
+    if (!workshop.lua.has_global(name))
+      throw_at(expression.position,
+               "'{}': got the unknown name '{}', expected a parameter, a constant or a function",
+               expression.text, name);
+  }
+}
+
+}  // namespace
+
+BlockExpression::BlockExpression(const Expression& expression, std::span<const std::string> columns,
+                                 bool is_condition, Workshop& workshop)
+    : source_(&expression) {
+  workshop.lua.check_expression(expression.text, expression.position);
+  check_names(expression, columns, workshop);
+  try {
+    program_ = compile_program(expression.text, columns, workshop.grammar.names, workshop.random_sites);
+  } catch (const InputError& error) {
+    throw_at(expression.position, "'{}': {}", expression.text, error.what());
+  }
+  if (program_ && program_->is_condition != is_condition) program_.reset();
+  if (!program_) function_ = workshop.functions.compile(expression, columns, is_condition);
+}
+
+Column BlockExpression::compute(std::span<const Column> columns, const RandomKey* keys, std::size_t count,
+                                Workshop& workshop) {
+  if (program_)
+    return run_program(*program_, {columns, workshop.globals.data(), keys, count, &workshop.surroundings},
+                       scratch_);
+  scratch_.resize(kBlockSize);
+  workshop.functions.evaluate(function_, columns, keys, count, scratch_.data());
+  return {scratch_.data(), 1};
+}
+
+std::optional<std::size_t> BlockExpression::first_not_finite(const Column& column, std::size_t count) {
+  const std::size_t n = column.stride == 0 ? std::min<std::size_t>(count, 1) : count;
+  double sum = 0;  // 0 · x is 0 only where x is finite: one test for all of them
+  for (std::size_t i = 0; i < n; ++i) sum += column.data[i] * 0;
+  if (sum == 0) return std::nullopt;
+  for (std::size_t i = 0; i < n; ++i)
+    if (!std::isfinite(column[i])) return i;
+  return std::nullopt;
+}
+
+}  // namespace espalier::lsystem

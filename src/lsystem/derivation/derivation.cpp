@@ -1,0 +1,246 @@
+#include <algorithm>
+#include <array>
+
+#include <espalier/lsystem/derivation/derivation.h>
+#include <espalier/lsystem/drawing/plant_builder.h>
+#include <espalier/lsystem/drawing/queries.h>
+
+namespace espalier::lsystem {
+
+namespace {
+
+constexpr std::uint64_t kInterpretationPlace = 1u << 20;  // steps have smaller numbers
+
+/// The axiom as the successor of a module that stands alone: it is computed like any other.
+std::vector<Production> axiom_production(const Grammar& grammar, SymbolId start) {
+  Production production;
+  production.name = "axiom";
+  production.position = *grammar.axiom_position;
+  production.predecessor.symbol = start;
+  production.successor = grammar.axiom;
+  return {production};
+}
+
+bool is_constant(const Grammar& grammar, std::string_view name) {
+  return std::any_of(grammar.constants.begin(), grammar.constants.end(),
+                     [&](const Constant& constant) { return constant.name == name; });
+}
+
+}  // namespace
+
+Derivation::Derivation(const Grammar& grammar, const Limits& limits)
+    : workshop_(grammar, limits), limits_(limits) {
+  const auto& names = grammar.names.globals;
+  workshop_.functions.set_max_modules(limits.modules);
+  workshop_.globals.assign(names.size(), 0);
+  if (const auto fraction = std::find(names.begin(), names.end(), "fraction");
+      fraction != names.end() && !is_constant(grammar, "fraction"))
+    fraction_global_ = static_cast<std::size_t>(fraction - names.begin());
+  run_lua_code();
+  for (const Constant& constant : grammar.constants) {
+    ConstantValue value;
+    value.global =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), constant.name) - names.begin());
+    value.parameter = constant.parameter;
+    if (!constant.parameter)
+      value.value.emplace(constant.value, std::span<const std::string>(), false, workshop_);
+    constants_.push_back(std::move(value));
+  }
+  for (const Setting& setting : grammar.settings) {
+    setting_values_.push_back({&setting, {}});
+    for (const Expression& value : setting.values)
+      setting_values_.back().values.emplace_back(value, std::span<const std::string>(), false, workshop_);
+  }
+  for (const ProductionTable& table : grammar.tables)
+    table_conditions_.emplace_back(table.condition, std::span<const std::string>(), true, workshop_);
+  surroundings_.emplace(workshop_);
+  productions_.emplace(grammar.productions, workshop_, limits);
+  interpretations_.emplace(grammar.interpretations, workshop_, limits);
+  axiom_ = axiom_production(grammar, workshop_.alphabet.intern("axiom", 0));
+  axiom_rewriter_.emplace(axiom_, workshop_, limits);
+}
+
+/// Variables of the code get their first values again, so that no derivation sees what the one before did.
+/// Constants are zero until then.
+void Derivation::run_lua_code() {
+  workshop_.lua.seal(false);
+  for (const std::string& name : workshop_.grammar.names.globals) workshop_.lua.set_global(name, 0);
+  name_surroundings(workshop_.lua, workshop_.grammar.names);
+  for (const LuaCode& code : workshop_.grammar.lua) workshop_.lua.run(code.text, code.label);
+  workshop_.lua.seal(true);
+}
+
+void Derivation::set_limits(const Limits& limits) {
+  limits_ = limits;
+  workshop_.functions.set_max_modules(limits.modules);
+  for (auto* rewriter : {&productions_, &interpretations_, &axiom_rewriter_}) (*rewriter)->set_limits(limits);
+}
+
+double Derivation::evaluate(BlockExpression& expression) {
+  const Position& position = expression.source().position;
+  const RandomKey key = child_key(root_key(seed_), ~std::uint64_t{0});
+  try {
+    const Column column = expression.compute({}, &key, 1, workshop_);
+    if (!BlockExpression::first_not_finite(column, 1)) return column[0];
+  } catch (const InputError& error) {
+    throw_at(position, "'{}': {}", expression.source().text, error.what());
+  }
+  throw_at(position, "'{}' is no finite number, expected one", expression.source().text);
+}
+
+void Derivation::set_global(std::size_t global, double value) {
+  workshop_.globals[global] = value;
+  workshop_.lua.set_global(workshop_.grammar.names.globals[global], value);
+}
+
+void Derivation::evaluate_settings() {
+  settings_ = {};
+  settings_.appearance = workshop_.grammar.appearance;
+  for (SettingValue& entry : setting_values_) {
+    const SettingInfo& info = *find_setting(entry.setting->name);
+    SettingValues values{};
+    for (std::size_t i = 0; i < entry.values.size(); ++i) {
+      values[i] = evaluate(entry.values[i]);
+      if (!(values[i] >= info.lower && values[i] <= info.upper))
+        throw_at(entry.setting->values[i].position, "setting '{}': got {}, expected {} to {}", info.name,
+                 values[i], info.lower, info.upper);
+    }
+    info.assign(settings_, values);
+  }
+}
+
+void Derivation::start(std::span<const double> parameters, Seed seed) {
+  ESPALIER_CHECK_EQ(parameters.size(), workshop_.grammar.parameters.rows.size());
+  seed_ = seed;
+  step_ = 0;
+  has_ended_ = false;
+  modules_written_ = 0;
+  workshop_.lua.reset_instructions();
+  run_lua_code();
+  set_global(workshop_.globals.size() - 1, 0);
+  surroundings_->clear();
+  const auto value_of = [&](BlockExpression& expression) { return evaluate(expression); };
+  for (std::size_t i = 0; i < constants_.size(); ++i) {
+    surroundings_->make_after(i, value_of);
+    ConstantValue& constant = constants_[i];
+    set_global(constant.global,
+               constant.parameter ? parameters[*constant.parameter] : evaluate(*constant.value));
+  }
+  surroundings_->make_after(constants_.size(), value_of);
+  workshop_.lua.call_hook("on_start", {});
+  evaluate_settings();
+  write_axiom();
+}
+
+void Derivation::write_axiom() {
+  string_.clear();
+  string_.symbols.push_back(workshop_.alphabet.intern("axiom", 0));
+  axiom_rewriter_->rewrite(string_, child_key(root_key(seed_), 0), {}, next_);
+  finish_step();
+}
+
+void Derivation::finish_step() {
+  std::swap(string_, next_);
+  modules_written_ += string_.size();
+  cut_branches();
+  fill_queries();
+  if (workshop_.grammar.uses_light) update_light();
+}
+
+void Derivation::step() {
+  if (step_ >= limits_.steps)
+    throw_input_error("{}: got step {}, expected at most {} (a limit that can be set)",
+                      workshop_.grammar.name, step_ + 1, limits_.steps);
+  ++step_;
+  const double number = step_;
+  set_global(workshop_.globals.size() - 1, number);
+  if (fraction_global_) set_global(*fraction_global_, 0);
+  workshop_.lua.call_hook("on_step", std::span(&number, 1));
+  std::vector<bool> table_is_on;
+  for (BlockExpression& condition : table_conditions_) table_is_on.push_back(evaluate(condition) != 0);
+  productions_->rewrite(string_, child_key(root_key(seed_), static_cast<std::uint64_t>(step_)), table_is_on,
+                        next_);
+  finish_step();
+}
+
+void Derivation::run(int steps) {
+  while (step_ < steps) step();
+  if (!has_ended_) workshop_.lua.call_hook("on_end", {});
+  has_ended_ = true;
+}
+
+/// Everything from a % to the end of its branch goes [Topiary §2].
+void Derivation::cut_branches() {
+  const SymbolId cut = workshop_.alphabet.intern("%", 0);
+  const SymbolId open = workshop_.alphabet.intern("[", 0), close = workshop_.alphabet.intern("]", 0);
+  SymbolId* const begin = string_.symbols.data();
+  SymbolId* const end = begin + string_.size();
+  SymbolId* symbol = std::find(begin, end, cut);
+  if (symbol == end) return;
+  const auto& arities = workshop_.alphabet.arities();
+  SymbolId* kept = begin;
+  double *value = string_.values.data(), *kept_value = value;
+  int cut_depth = 0;  // of branches inside the one that is being cut; 0 where nothing is
+  for (symbol = begin; symbol < end; ++symbol) {
+    const std::size_t arity = arities[*symbol];
+    if (cut_depth == 0 && *symbol == cut)
+      cut_depth = 1;
+    else if (cut_depth > 0 && *symbol == open)
+      ++cut_depth;
+    else if (cut_depth > 0 && *symbol == close)
+      --cut_depth;
+    if (cut_depth == 0) {
+      *kept++ = *symbol;
+      kept_value = std::copy_n(value, arity, kept_value);
+    }
+    value += arity;
+  }
+  string_.symbols.truncate(static_cast<std::size_t>(kept - begin));
+  string_.values.truncate(static_cast<std::size_t>(kept_value - string_.values.data()));
+}
+
+const ModuleString& Derivation::interpreted(double fraction) {
+  if (interpretations_->is_empty()) return string_;
+  if (fraction_global_) set_global(*fraction_global_, fraction);
+  interpretations_->rewrite(
+      string_, child_key(root_key(seed_), kInterpretationPlace + static_cast<std::uint64_t>(step_)),
+      std::vector<bool>(table_conditions_.size(), true), drawn_);
+  return drawn_;
+}
+
+VolumePtr Derivation::volume(const std::string& name) const {
+  const auto& names = workshop_.grammar.names.volumes;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw_input_error("{}: got volume '{}', expected {}", workshop_.grammar.name, name,
+                      names.empty() ? "none: the L-system declares no volumes"
+                                    : fmt::format("one of: {}", fmt::join(names, ", ")));
+  return workshop_.surroundings.volumes[static_cast<std::size_t>(found - names.begin())];
+}
+
+Vec3 Derivation::towards_sun() const {
+  if (!workshop_.grammar.has_sun) return {0, 0, 1};
+  const auto& names = workshop_.grammar.names.globals;
+  const auto of = [&](const char* name) {
+    return static_cast<float>(
+        workshop_
+            .globals[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())]);
+  };
+  return {of("sun_x"), of("sun_y"), of("sun_z")};
+}
+
+/// The plant as it is now shades itself in the next step.
+void Derivation::update_light() {
+  constexpr double kGap = 0.3;  // of a segment
+  shading_plant_.clear();
+  build_plant(interpreted(), workshop_.alphabet, settings_, shading_plant_);
+  workshop_.surroundings.set_light(shading_plant_, settings_.unit_m, towards_sun(), kGap * settings_.length,
+                                   workshop_.grammar.shades);
+}
+
+void Derivation::fill_queries() {
+  if (!has_queries(workshop_.alphabet)) return;
+  espalier::lsystem::fill_queries(interpreted(), string_, workshop_.alphabet, settings_);
+}
+
+}  // namespace espalier::lsystem

@@ -1,0 +1,216 @@
+#include <algorithm>
+
+#include <espalier/lsystem/derivation/rewriter.h>
+
+namespace espalier::lsystem {
+
+Rewriter::Rewriter(const std::vector<Production>& productions, Workshop& workshop, const Limits& limits)
+    : workshop_(workshop), limits_(limits) {
+  for (const Production& production : productions)
+    rules_.push_back(std::make_unique<Rule>(production, workshop));
+}
+
+/// The groups of the productions that take part in this step.
+void Rewriter::prepare_groups(const std::vector<bool>& table_is_on) {
+  groups_.clear();
+  needs_index_ = false;
+  group_of_.assign(workshop_.alphabet.size(), -1);
+  for (const auto& rule : rules_) {
+    const Production& production = rule->production();
+    if (production.table >= 0 && !table_is_on[static_cast<std::size_t>(production.table)]) continue;
+    std::int16_t& group = group_of_[production.predecessor.symbol];
+    if (group < 0) {
+      group = static_cast<std::int16_t>(groups_.size());
+      groups_.emplace_back();
+    }
+    auto& members = groups_[static_cast<std::size_t>(group)];
+    (production.is_context_sensitive() ? members.sensitive : members.free).push_back(rule.get());
+    needs_index_ = needs_index_ || production.is_context_sensitive();
+  }
+}
+
+void Rewriter::prepare_skipped() {
+  const Grammar& grammar = workshop_.grammar;
+  const auto is_in = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  skipped_.assign(workshop_.alphabet.size(), 0);
+  for (std::size_t id = 0; id < skipped_.size(); ++id) {
+    const std::string& name = workshop_.alphabet[static_cast<SymbolId>(id)].name;
+    skipped_[id] =
+        is_in(grammar.ignored, name) || (grammar.has_considered && !is_in(grammar.considered, name));
+  }
+}
+
+void Rewriter::rewrite(const ModuleString& string, RandomKey key, const std::vector<bool>& table_is_on,
+                       ModuleString& result) {
+  prepare_groups(table_is_on);
+  if (needs_index_) {
+    const SymbolId open = workshop_.alphabet.intern("[", 0), close = workshop_.alphabet.intern("]", 0);
+    prepare_skipped();
+    index_.build(string, workshop_.alphabet, open, close, skipped_, workshop_.grammar.follow_branches);
+  }
+  result.clear();
+  value_offset_ = 0;
+  const Rewriting rewriting{string, index_, key};
+  for (std::size_t begin = 0; begin < string.size(); begin += kBlockSize) {
+    const std::size_t end = std::min(begin + kBlockSize, string.size());
+    collect(string, begin, end);
+    for (Group& group : groups_)
+      if (group.candidates.size() > 0) choose(group, rewriting);
+    emit(string, begin, end, result);
+    if (result.size() > limits_.modules)
+      throw TooManyModules(
+          fmt::format("{}: the string has more than {} modules, expected fewer (--max-modules)",
+                      workshop_.grammar.name, limits_.modules));
+  }
+  result.symbols.fit();
+  result.values.fit();
+}
+
+/// Sorts the modules of a block by group.
+void Rewriter::collect(const ModuleString& string, std::size_t begin, std::size_t end) {
+  block_begin_ = begin;
+  choices_.assign(end - begin, {});
+  for (Group& group : groups_) group.candidates.clear();
+  const std::uint8_t* arities = workshop_.alphabet.arities().data();
+  std::size_t offset = value_offset_;
+  for (std::size_t i = begin; i < end; ++i) {
+    const SymbolId symbol = string.symbols[i];
+    const std::int16_t group = symbol < group_of_.size() ? group_of_[symbol] : std::int16_t{-1};
+    if (group >= 0) {
+      Candidates& candidates = groups_[static_cast<std::size_t>(group)].candidates;
+      candidates.module.push_back(static_cast<std::uint32_t>(i));
+      candidates.values.push_back(static_cast<std::uint32_t>(offset));
+    }
+    offset += arities[symbol];
+  }
+}
+
+void Rewriter::choose(const Group& group, const Rewriting& rewriting) {
+  const Candidates* candidates = &group.candidates;
+  if (!group.sensitive.empty()) {
+    choose_among(*candidates, group.sensitive, rewriting);
+    if (group.free.empty()) return;
+    unclaimed_.clear();
+    for (std::size_t i = 0; i < candidates->size(); ++i) {
+      if (claims_[i] != Claim::none) continue;
+      unclaimed_.module.push_back(candidates->module[i]);
+      unclaimed_.values.push_back(candidates->values[i]);
+    }
+    candidates = &unclaimed_;
+  }
+  if (candidates->size() > 0) choose_among(*candidates, group.free, rewriting);
+}
+
+/// Lets these rules claim candidates; who gets none stays, or is left to other rules.
+void Rewriter::choose_among(const Candidates& candidates, const std::vector<Rule*>& rules,
+                            const Rewriting& rewriting) {
+  const std::size_t count = candidates.size();
+  claims_.assign(count, Claim::none);
+  if (rules.size() == 1 && !rules[0]->production().probability) {
+    rules[0]->match(candidates, rewriting, workshop_);
+    for (const std::uint16_t hit : rules[0]->hits()) claims_[hit] = Claim::deterministic;
+    return apply(*rules[0], candidates, rewriting);
+  }
+  owners_.assign(count, nullptr);
+  claimants_.assign(count, nullptr);
+  totals_.assign(count, 0);
+  draws_.assign(count, -1);
+  for (Rule* rule : rules) {
+    rule->match(candidates, rewriting, workshop_);
+    claim_hits(*rule, candidates, rewriting);
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    if (totals_[i] > 1 + 1e-9) check_total(candidates, i, rules, rewriting);
+  for (Rule* rule : rules) {
+    keep_.clear();
+    for (const std::uint16_t hit : rule->hits()) keep_.push_back(owners_[hit] == rule);
+    rule->keep_hits(keep_);
+    apply(*rule, candidates, rewriting);
+  }
+}
+
+/// A stochastic rule gets a candidate where the draw falls into its share of [0, 1).
+void Rewriter::claim_hits(Rule& rule, const Candidates& candidates, const Rewriting& rewriting) {
+  const bool stochastic = rule.production().probability.has_value();
+  for (std::size_t slot = 0; slot < rule.hits().size(); ++slot) {
+    const std::size_t i = rule.hits()[slot];
+    const bool shared = stochastic && claims_[i] == Claim::stochastic;
+    if (claims_[i] != Claim::none && !shared) fail_conflict(rule, *claimants_[i], candidates, i, rewriting);
+    claimants_[i] = &rule;
+    if (!stochastic) {
+      claims_[i] = Claim::deterministic;
+      owners_[i] = &rule;
+      continue;
+    }
+    if (claims_[i] == Claim::none) draws_[i] = random_unit(rewriting.module_key(candidates.module[i]), 0);
+    claims_[i] = Claim::stochastic;
+    const double before = totals_[i];
+    totals_[i] += rule.weights()[slot];
+    if (before <= draws_[i] && draws_[i] < totals_[i]) owners_[i] = &rule;
+  }
+}
+
+namespace {
+
+std::string text_of(const Candidates& candidates, std::size_t candidate, const Rewriting& rewriting,
+                    const SymbolTable& alphabet) {
+  const Symbol& symbol = alphabet[rewriting.string.symbols[candidates.module[candidate]]];
+  return module_text(symbol, rewriting.string.values.data() + candidates.values[candidate]);
+}
+
+}  // namespace
+
+void Rewriter::check_total(const Candidates& candidates, std::size_t candidate,
+                           const std::vector<Rule*>& rules, const Rewriting& rewriting) const {
+  throw_at(rules[0]->production().position,
+           "module {}: the probabilities of {} and the others sum to {}, expected at most 1",
+           text_of(candidates, candidate, rewriting, workshop_.alphabet), rules[0]->production().name,
+           totals_[candidate]);
+}
+
+void Rewriter::fail_conflict(const Rule& rule, const Rule& other, const Candidates& candidates,
+                             std::size_t candidate, const Rewriting& rewriting) const {
+  throw_at(rule.production().position, "module {}: {} and {} ({}) both apply, expected one of them",
+           text_of(candidates, candidate, rewriting, workshop_.alphabet), rule.production().name,
+           other.production().name, describe(other.production().position));
+}
+
+void Rewriter::apply(Rule& rule, const Candidates& candidates, const Rewriting& rewriting) {
+  if (rule.hits().empty()) return;
+  rule.compute_successor(candidates, rewriting, workshop_);
+  for (std::size_t slot = 0; slot < rule.hits().size(); ++slot)
+    if (rule.replaces(slot))
+      choices_[candidates.module[rule.hits()[slot]] - block_begin_] = {&rule,
+                                                                       static_cast<std::uint16_t>(slot)};
+}
+
+/// Writes the block's part of the result: successors, and runs of modules that stay.
+void Rewriter::emit(const ModuleString& string, std::size_t begin, std::size_t end, ModuleString& result) {
+  const std::uint8_t* arities = workshop_.alphabet.arities().data();
+  const SymbolId* symbols = string.symbols.data();
+  const double* values = string.values.data() + value_offset_;
+  std::size_t symbol_count = 0, value_count = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Choice& choice = choices_[i - begin];
+    symbol_count += choice.rule ? choice.rule->symbol_count(choice.slot) : 1;
+    value_count += choice.rule ? choice.rule->value_count(choice.slot) : arities[symbols[i]];
+    value_offset_ += arities[symbols[i]];
+  }
+  SymbolId* symbol_end = result.symbols.grow(symbol_count);
+  double* value_end = result.values.grow(value_count);
+  for (std::size_t i = begin; i < end; ++i) {
+    const Choice& choice = choices_[i - begin];
+    const std::size_t arity = arities[symbols[i]];
+    if (choice.rule) {
+      choice.rule->write(choice.slot, symbol_end, value_end);
+    } else {
+      *symbol_end++ = symbols[i];
+      for (std::size_t v = 0; v < arity; ++v) *value_end++ = values[v];
+    }
+    values += arity;
+  }
+}
+
+}  // namespace espalier::lsystem

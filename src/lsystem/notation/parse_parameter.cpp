@@ -1,0 +1,72 @@
+#include <cmath>
+#include <cstdlib>
+
+#include <espalier/lsystem/notation/parse_parameter.h>
+
+namespace espalier::lsystem {
+
+namespace {
+
+void parse_scale_and_unit(Cursor& cursor, ParameterInfo& row) {
+  row.unit.assign(1, '1');
+  while (!cursor.at_end() && cursor.rest()[0] != '"') {
+    const Position position = cursor.position();
+    const std::string word = cursor.expect_word("integer, logarithmic, deg or \"help\"");
+    if (word == "integer")
+      row.scale = Scale::integer;
+    else if (word == "logarithmic")
+      row.scale = Scale::logarithmic;
+    else if (word == "deg")
+      row.unit = word;
+    else
+      throw_at(position, "got '{}', expected integer, logarithmic or deg", word);
+  }
+  if (row.scale == Scale::logarithmic && row.lower <= 0)
+    throw_at(cursor.position(), "got lower bound {}, expected one above 0 for a logarithmic parameter",
+             row.lower);
+}
+
+void parse_help(Cursor& cursor, ParameterInfo& row) {
+  if (!cursor.take("\"")) return;
+  const std::size_t end = cursor.rest().find('"');
+  if (end == std::string_view::npos) cursor.fail("'\"' after the help");
+  row.help = std::string(cursor.rest().substr(0, end));
+  cursor.go_to(cursor.at() + end + 1);
+  if (!cursor.at_end()) cursor.fail("the end of the line");
+}
+
+}  // namespace
+
+double parse_number(Cursor& cursor, std::string_view what) {
+  cursor.skip_space();
+  const std::string text(cursor.rest().substr(0, 40));
+  char* stop = nullptr;
+  const double value = std::strtod(text.c_str(), &stop);
+  // "0..1": the range's dots are none of the number's.
+  std::size_t length = static_cast<std::size_t>(stop - text.c_str());
+  if (length > 0 && text[length - 1] == '.' && text[length] == '.') --length;
+  if (length == 0 || !std::isfinite(value)) cursor.fail(what);
+  cursor.go_to(cursor.at() + length);
+  return value;
+}
+
+ParameterInfo parse_parameter_row(Cursor& cursor, const std::string& name) {
+  ParameterInfo row;
+  row.name = name;
+  cursor.expect("=");
+  const Position position = cursor.position();
+  row.default_value = parse_number(cursor, "a number");
+  cursor.expect("in");
+  row.lower = row.search_lower = parse_number(cursor, "the lower bound");
+  cursor.expect("..");
+  row.upper = row.search_upper = parse_number(cursor, "the upper bound");
+  parse_scale_and_unit(cursor, row);
+  parse_help(cursor, row);
+  row.free_by_default = true;
+  if (!(row.lower < row.upper))
+    throw_at(position, "got bounds {} .. {}, expected the lower one first", row.lower, row.upper);
+  check_value(row, row.default_value, describe(position));
+  return row;
+}
+
+}  // namespace espalier::lsystem

@@ -1,0 +1,47 @@
+// The text of an L-system file, and messages that point into it: "fern.lsys:12:7: got ')', expected …".
+// Everything read from a file keeps its offset, so that errors of a derivation name the place too.
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <espalier/core/error.h>
+
+namespace espalier::lsystem {
+
+struct Source {
+  std::string label;             ///< what messages call the file
+  std::filesystem::path folder;  ///< where its includes are
+  std::string text;
+  bool may_read_files = true;   ///< meshes and pictures in the folder
+  bool may_have_plants = true;  ///< of other L-systems; those have none
+};
+
+/// A place in a file. Files are shared, because included ones outlive their reading.
+struct Position {
+  std::shared_ptr<const Source> source;
+  std::size_t offset = 0;
+};
+
+/// "file:line:column", both from 1; "L-system" for a position in no file.
+std::string describe(const Position& position);
+
+/// The text with blanks for its line breaks, its middle left out where it is long: messages quote what files
+/// say.
+std::string one_line(std::string text);
+
+template <typename... Args>
+[[noreturn]] void throw_at(const Position& position, fmt::format_string<Args...> format, Args&&... args) {
+  throw InputError(one_line(describe(position) + ": " + fmt::format(format, std::forward<Args>(args)...)));
+}
+
+/// Throws InputError where the path is there but neither a file nor a folder, as a pipe, which would never
+/// end.
+void check_is_no_pipe(const std::filesystem::path& path);
+
+/// What a message calls the text at an offset: "'x'", "the end of the line" or "the end of the file".
+std::string found_at(std::string_view text, std::size_t offset);
+
+}  // namespace espalier::lsystem

@@ -1,0 +1,39 @@
+#include <cctype>
+
+#include <espalier/core/error.h>
+#include <espalier/lsystem/strings/symbols.h>
+
+namespace espalier::lsystem {
+
+SymbolId SymbolTable::intern(std::string_view name, std::size_t arity) {
+  if (arity > kMaxArity)
+    throw_input_error("module {}: got {} parameters, expected at most {}", name, arity, kMaxArity);
+  auto found = ids_.find(name);
+  if (found == ids_.end()) found = ids_.emplace(name, std::array<SymbolId, kMaxArity + 1>{}).first;
+  SymbolId& id = found->second[arity];
+  if (id > 0) return static_cast<SymbolId>(id - 1);
+  if (symbols_.size() >= 65'000) throw_input_error("got more than 65000 symbols, expected fewer");
+  symbols_.push_back({std::string(name), static_cast<std::uint8_t>(arity)});
+  arities_.push_back(static_cast<std::uint8_t>(arity));
+  id = static_cast<SymbolId>(symbols_.size());
+  return static_cast<SymbolId>(id - 1);
+}
+
+bool is_query(std::string_view name) {
+  return name.size() == 2 && name[0] == '?' &&
+         std::string_view("PHUL").find(name[1]) != std::string_view::npos;
+}
+
+std::size_t symbol_length(std::string_view text, const std::vector<std::string>& declared) {
+  std::size_t longest = 0;
+  for (const std::string& name : declared)
+    if (name.size() > longest && text.starts_with(name)) longest = name.size();
+  if (longest > 0 || text.empty()) return longest;
+  if (is_query(text.substr(0, 2)) || text.starts_with("@o")) return 2;
+  constexpr std::string_view kSigns = "+-&^/\\|[]$!_;,'{}.%~@#?";
+  const bool known =
+      std::isalpha(static_cast<unsigned char>(text[0])) || kSigns.find(text[0]) != std::string_view::npos;
+  return known ? 1 : 0;
+}
+
+}  // namespace espalier::lsystem

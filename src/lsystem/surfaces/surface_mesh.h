@@ -1,0 +1,17 @@
+// Meshes as surfaces of L-systems, read by Assimp from memory: files from strangers, which may name others,
+// open none.
+#pragma once
+#include <string>
+#include <vector>
+
+#include <espalier/lsystem/surfaces/polygon.h>
+
+namespace espalier::lsystem {
+
+/// All triangles of a mesh file of this format ("obj", "ply", "stl", "off", "glb"), its coordinates as they
+/// are. Throws InputError for bytes that are no mesh, none or more than 100,000 triangles, or no finite
+/// numbers.
+std::vector<Triangle> read_surface_mesh(const std::string& bytes, const std::string& format,
+                                        const std::string& label);
+
+}  // namespace espalier::lsystem

@@ -1,0 +1,30 @@
+// The size of a child stem [Weber & Penn 95, §4.4; CH §3.2.1]. Metres.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include <espalier/weber_penn/scalar/stem.h>
+
+namespace espalier {
+
+constexpr float kThinnestParentM = 0.0001f;
+constexpr float kThinnestChildM = 0.005f;
+constexpr float kShortestStemM = 1e-5f;
+
+/// `parent_radius_m` at the parent's base, `site_radius_m` where the child sits; `level` of the child.
+inline float child_radius_m(float length_m, float parent_length_m, float parent_radius_m, float site_radius_m,
+                            int level, const WeberPennParameters& p) {
+  const float scaled_m = p.radius_mod[level_index(level)] * parent_radius_m *
+                         std::pow(length_m / parent_length_m, p.ratio_power);
+  return std::min(site_radius_m, std::max(kThinnestChildM, scaled_m));
+}
+
+/// The longest child relative to this stem; the stem has its level and key.
+inline float drawn_child_max(const GrowingStem& stem, const WeberPennParameters& p) {
+  const int next = level_index(stem.level + 1);
+  const float variation = p.length_v[next];
+  return variation == 0 ? p.length[next]
+                        : p.length[next] + draw_signed(stem.key, Draw::child_length) * variation;
+}
+
+}  // namespace espalier

@@ -1,0 +1,96 @@
+// Spacing and rolls of whole stems, see child_spread.h; the formulas are those of children.cpp.
+#include <algorithm>
+
+#include <espalier/weber_penn/simd/child_spread.h>
+
+namespace espalier {
+
+namespace {
+
+constexpr std::size_t kReadBeyond = 16;
+constexpr float kRounding = 1e-4f;  // of a running count, as in ChildPlacer::begin
+
+float alternating_deg(int child, float rotate_deg) {
+  return (child % 2 == 0 ? 1.f : -1.f) * (180 + rotate_deg);
+}
+
+}  // namespace
+
+bool ChildSpread::takes(float child_count, int child_level, const WeberPennParameters& p) {
+  return child_count >= 0 && p.branch_dist[level_index(child_level)] <= 1;
+}
+
+/// Of a child, in [0, 1] along the stem.
+float ChildSpread::place(int child, int segments) const {
+  std::size_t segment = 0;
+  while (segment + 1 < static_cast<std::size_t>(segments) && static_cast<float>(child) >= whole_[segment])
+    ++segment;
+  const float shift = child % 2 == 1 ? distribution_ : 0;
+  const float t =
+      std::clamp((static_cast<float>(child) - shift - reached_[segment]) * inverse_rate_, 0.f, 1.f);
+  const float z_start = static_cast<float>(segment) / static_cast<float>(segments),
+              z_end = static_cast<float>(segment + 1) / static_cast<float>(segments);
+  return z_start + t * (z_end - z_start);
+}
+
+void ChildSpread::spread(const GrowingStem& stem, float count, const WeberPennParameters& p) {
+  const int segments = segment_count(p, stem.level);
+  const float rate = std::max(0.f, count) / static_cast<float>(segments);
+  inverse_rate_ = 1 / rate;
+  distribution_ = p.branch_dist[level_index(stem.level + 1)];
+  reached_.resize(static_cast<std::size_t>(segments) + kReadBeyond);
+  whole_.resize(static_cast<std::size_t>(segments) + kReadBeyond);
+  float reached = 0;
+  int passed = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(segments); ++i) {
+    reached_[i] = reached;
+    reached += rate;
+    passed = static_cast<int>(reached + kRounding);
+    whole_[i] = static_cast<float>(passed);
+  }
+  first_ = 0;
+  end_ = passed;
+  last_growth_ = 1;
+  const float missing = static_cast<float>(end_ + 1) - reached;
+  if (rate > 0 && p.relaxed_counts > 0 && missing < 1) ++end_, last_growth_ = 1 - missing;
+  const float bare = p.base_size[level_index(stem.level)];
+  while (first_ < end_ && place(first_, segments) < bare) ++first_;
+}
+
+void RollTable::extend_shared(std::size_t count, float rotate_deg) {
+  while (shared_deg_.size() < count + kReadBeyond) {
+    const int child = static_cast<int>(shared_deg_.size());
+    float roll_deg = rotate_deg < 0 ? alternating_deg(child, rotate_deg)
+                                    : (child == 0 ? 0 : shared_deg_.back()) + rotate_deg;
+    if (roll_deg > 360) roll_deg -= 360;
+    shared_deg_.push_back(roll_deg);
+  }
+}
+
+/// ChildPlacer::next_rotation_deg of each child.
+void RollTable::draw_own(const GrowingStem& stem, int count, float rotate_deg, float most_deg) {
+  own_deg_.resize(static_cast<std::size_t>(count) + kReadBeyond);
+  float rotation_deg = 360 * draw_unit(stem.key, Draw::child_rotation_start);
+  for (int child = 0; child < count; ++child) {
+    const float jitter_deg = draw_signed(stem.key, Draw::child_rotation, child) * most_deg;
+    rotation_deg += rotate_deg + jitter_deg;
+    if (rotation_deg > 360) rotation_deg -= 360;
+    own_deg_[static_cast<std::size_t>(child)] =
+        rotate_deg < 0 ? (child % 2 == 0 ? 1.f : -1.f) * (180 + rotate_deg + jitter_deg) : rotation_deg;
+  }
+}
+
+ChildRolls RollTable::rolls(const GrowingStem& stem, int count, const WeberPennParameters& p) {
+  const int level = level_index(stem.level + 1);
+  const float rotate_deg = p.rotate[level], most_deg = p.rotate_v[level];
+  if (most_deg != 0) {
+    draw_own(stem, count, rotate_deg, most_deg);
+    return {0, own_deg_.data()};
+  }
+  if (stem.level != level_) shared_deg_.clear();
+  level_ = stem.level;
+  extend_shared(static_cast<std::size_t>(count), rotate_deg);
+  return {rotate_deg < 0 ? 0 : 360 * draw_unit(stem.key, Draw::child_rotation_start), shared_deg_.data()};
+}
+
+}  // namespace espalier

@@ -1,0 +1,177 @@
+// espalier experiment as a user meets it: runs that survive being killed at any moment, failed runs as rows,
+// reports, and expectations that can be broken.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/file.h>
+
+#include <fstream>
+#include <random>
+
+#include <espalier/experiments/runner/csv.h>
+
+#include "support/run_espalier.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const std::string kQuick = ESPALIER_SOURCE_DIR "/experiments/quick.toml";
+
+fs::path file_with(const std::string& name, const std::string& text) {
+  const fs::path path = fresh_folder("file_" + name) / name;
+  std::ofstream(path) << text;
+  return path;
+}
+
+/// Runs of a few hundred evaluations: a second or two in all.
+fs::path small_study() {
+  return file_with(
+      "study.toml",
+      "[fits]\ntargets = ['oc_palm', {species = 'palm', seed = 3}]\noptimizers = ['cma_es', 'LN_SBPLX']\n"
+      "starts = ['palm']\nseeds = 2\nevaluations = 400\nsize = 32\nmax_stems = 300\n"
+      "max_leaves = 3000\nunseen_seeds = 2\n");
+}
+
+std::string run_arguments(const fs::path& file, const fs::path& out) {
+  return "experiment run '" + file.string() + "' --out '" + out.string() + "' --quiet";
+}
+
+void expect_error(const std::string& arguments, const std::string& words) {
+  const ProgramRun run = run_espalier(arguments);
+  expect_one_clear_error(run);
+  EXPECT_THAT(run.err, HasSubstr(words)) << arguments;
+}
+
+TEST(ExperimentCommand, KilledTenTimesItEndsWithTheTableOfTheUnbrokenRun) {
+  const fs::path study = small_study(), folder = fresh_folder("kill");
+  ASSERT_EQ(run_espalier(run_arguments(study, folder / "unbroken")).exit_code, 0);
+  std::mt19937 random(std::random_device{}());
+  const fs::path broken = folder / "broken";
+  int kills = 0;
+  for (int attempt = 0; attempt < 10; ++attempt)
+    kills += WIFSIGNALED(
+        run_and_signal(run_arguments(study, broken), 30 + static_cast<int>(random() % 170), SIGKILL));
+  EXPECT_GT(kills, 0) << "no execution lived long enough to be killed";
+  ASSERT_EQ(run_espalier(run_arguments(study, broken)).exit_code, 0);
+  EXPECT_EQ(read_text_file(broken / "results.csv"), read_text_file(folder / "unbroken" / "results.csv"));
+}
+
+TEST(ExperimentCommand, TheNumberOfJobsChangesNothing) {
+  const fs::path study = small_study(), folder = fresh_folder("jobs");
+  for (const char* jobs : {"1", "3"})
+    ASSERT_EQ(run_espalier(run_arguments(study, folder / jobs) + " --jobs " + jobs).exit_code, 0);
+  EXPECT_EQ(read_text_file(folder / "1" / "results.csv"), read_text_file(folder / "3" / "results.csv"));
+}
+
+TEST(ExperimentCommand, RunsThatAreDoneAreNotRunAgain) {
+  const fs::path study = small_study(), out = fresh_folder("again") / "out";
+  ASSERT_EQ(run_espalier(run_arguments(study, out)).exit_code, 0);
+  const std::string times = read_text_file(out / "times.csv");
+  ASSERT_EQ(run_espalier(run_arguments(study, out)).exit_code, 0);
+  EXPECT_EQ(read_text_file(out / "times.csv"), times) << "wall times would differ";
+}
+
+TEST(ExperimentCommand, AFailedRunIsARowAndTheOthersGoOn) {
+  const fs::path study = file_with("study.toml",
+                                   "[fits]\ntargets = ['oc_palm']\noptimizers = ['GN_AGS', 'random_search']\n"
+                                   "evaluations = 20\nsize = 32\n");
+  const fs::path out = fresh_folder("failed") / "out";
+  const ProgramRun run = run_espalier("experiment run '" + study.string() + "' --out '" + out.string() + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("expected at most 10"));
+  const CsvTable results = read_csv(out / "results.csv");
+  ASSERT_EQ(results.rows.size(), 2u);
+  EXPECT_EQ(results.text(0, "status"), "failed");
+  EXPECT_THAT(results.text(0, "error"), HasSubstr("free parameters"));
+  EXPECT_EQ(results.text(1, "status"), "done");
+}
+
+TEST(ExperimentCommand, TheTrueParametersAreScoredOnTheSameUnseenSeeds) {
+  const fs::path out = fresh_folder("truth") / "out";
+  ASSERT_EQ(run_espalier(run_arguments(small_study(), out)).exit_code, 0);
+  const CsvTable results = read_csv(out / "results.csv");
+  for (std::size_t row = 0; row < results.rows.size(); ++row) {
+    EXPECT_FALSE(results.text(row, "unseen_fitness").empty());
+    EXPECT_EQ(results.text(row, "truth_fitness").empty(), results.text(row, "target") != "palm");
+  }
+}
+
+TEST(ExperimentCommand, TheQuickExperimentRunsAndIsReported) {
+  const fs::path out = fresh_folder("quick") / "quick";
+  ASSERT_EQ(run_espalier(run_arguments(kQuick, out)).exit_code, 0);
+  const ProgramRun report = run_espalier("experiment report '" + out.string() + "'");
+  ASSERT_EQ(report.exit_code, 0) << report.err;
+  for (const char* file : {"index.html", "convergence.csv", "data_profile.csv", "ranks.csv", "friedman.csv",
+                           "results.csv", "generations.csv"})
+    EXPECT_GT(fs::file_size(out / "report" / file), 50u) << file;
+  const bool can_plot = run_shell("/usr/bin/python3 -c 'import matplotlib'").exit_code == 0;
+  EXPECT_EQ(fs::exists(out / "report" / "convergence.svg"), can_plot);
+  EXPECT_EQ(run_espalier("experiment check '" + out.string() + "'").exit_code, 0);
+}
+
+TEST(ExperimentCommand, ASheetOfPicturesAndGrowthAreReported) {
+  const fs::path folder = fresh_folder("kinds");
+  const fs::path sheet =
+      file_with("sheet.toml",
+                "[pictures]\nspecies = 'palm'\nsize = 32\nrows = [{label = 'a'}, {label = 'b', set = "
+                "{leaf_blos_num = 0}}]\ncolumns = [{label = 'c', set = {flare = 2}}]\n");
+  const fs::path growth = file_with("growth.toml", "[growth]\nspecies = ['palm', 'acer']\nseeds = 3\n");
+  for (const fs::path& file : {sheet, growth}) {
+    const fs::path out = folder / file.stem();
+    ASSERT_EQ(run_espalier(run_arguments(file, out)).exit_code, 0);
+    ASSERT_EQ(run_espalier("experiment report '" + out.string() + "'").exit_code, 0);
+    EXPECT_TRUE(fs::exists(out / "report" / "index.html"));
+  }
+  EXPECT_TRUE(fs::exists(folder / "sheet/runs/row2-column1/picture.png"));
+  EXPECT_EQ(read_csv(folder / "growth/report/growth_times.csv").rows.size(), 6u);
+}
+
+TEST(ExperimentCommand, ABrokenExpectationEndsWithOne) {
+  const fs::path out = fresh_folder("check") / "out";
+  ASSERT_EQ(run_espalier(run_arguments(small_study(), out)).exit_code, 0);
+  const auto check = [&](const std::string& text) {
+    return run_espalier("experiment check '" + out.string() + "' '" + file_with("x.toml", text).string() +
+                        "'");
+  };
+  const ProgramRun holds = check("[[expect]]\ncolumn = 'fitness'\nat_least = 0.1\nat_most = 1.0\n");
+  EXPECT_EQ(holds.exit_code, 0) << holds.err;
+  const ProgramRun broken = check("[[expect]]\ncolumn = 'fitness'\nstatistic = 'min'\nat_least = 1.01\n");
+  EXPECT_EQ(broken.exit_code, 1);
+  EXPECT_THAT(broken.out, HasSubstr("BROKEN"));
+  expect_one_clear_error(check("[[expect]]\ncolumn = 'fitnes'\nat_least = 0\n"));
+  expect_one_clear_error(check("[[expect]]\ncolumn = 'fitness'\n"));
+  expect_one_clear_error(check("[[expect]]\ncolumn = 'fitness'\nvalue = 1\n"));
+  expect_one_clear_error(check("[[expect]]\ncolumn = 'fitness'\nat_least = 0\nwhere = {target = 'oak'}\n"));
+  expect_one_clear_error(check("[[expect]]\ntable = 'no.csv'\ncolumn = 'fitness'\nat_least = 0\n"));
+}
+
+TEST(ExperimentCommand, RefusesDirectoriesOfOthers) {
+  const fs::path folder = fresh_folder("others"), study = small_study();
+  const fs::path other = file_with("other.toml", "[growth]\nspecies = ['palm']\nseeds = 1\n");
+  ASSERT_EQ(run_espalier(run_arguments(other, folder / "growth")).exit_code, 0);
+  expect_error(run_arguments(study, folder / "growth"), "another experiment");
+  fs::create_directory(folder / "full");
+  std::ofstream(folder / "full" / "letter.txt") << "x";
+  expect_error(run_arguments(study, folder / "full"), "other files");
+  EXPECT_FALSE(fs::exists(folder / "full" / "lock")) << "nothing is left there";
+  std::ofstream(folder / "file") << "x";
+  expect_error(run_arguments(study, folder / "file"), "got a file");
+  expect_error("experiment report '" + (folder / "full").string() + "'", "experiment.toml");
+  expect_error("experiment run '" + (folder / "none.toml").string() + "'", "none.toml");
+}
+
+TEST(ExperimentCommand, RefusesADirectoryThatAnotherProcessWorksIn) {
+  const fs::path out = fresh_folder("lock") / "out";
+  fs::create_directories(out);
+  const int file = open((out / "lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+  ASSERT_EQ(flock(file, LOCK_EX), 0);
+  expect_error(run_arguments(small_study(), out), "another process");
+  close(file);
+  EXPECT_EQ(run_espalier(run_arguments(small_study(), out)).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,134 @@
+// Refinement branch by branch: laws of a step, a round, and a whole fit that ends with it.
+#include <gtest/gtest.h>
+
+#include <espalier/core/error.h>
+#include <espalier/fitting/branches/branch_refinement.h>
+#include <espalier/fitting/branches/branch_rounds.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+#include <espalier/render/scanlines/scanline_renderer.h>
+
+namespace espalier {
+namespace {
+
+/// A quaking aspen of few leaves, drawn with another seed than the task's trees are grown with.
+struct SmallTask {
+  Preset preset = load_preset("quaking_aspen");
+  FitTask task;
+
+  SmallTask() {
+    const Model& model = model_by_name("weber_penn");
+    set("branches[1]", 15), set("branches[2]", 8), set("leaf_blos_num", 4), set("g_scale_v", 0);
+    task.model = &model;
+    task.plant_seeds = {1};
+    task.objective = parse_objective("0.5*truncated_distance+0.25*iou+0.25*gap_iou");
+    Plant plant;
+    model.generate(preset.values, 77, {}, plant);
+    const Camera camera = frame_base({0, 0, 0}, {}, 16.f / 64, 64, 64, 62);
+    Mask mask;
+    make_scanline_renderer()->draw(plant, camera, mask);
+    task.views = {{camera, PreparedTarget(mask), camera.metres_per_px}};
+  }
+
+  void set(const char* name, double value) { preset.values[table().index_of(name)] = value; }
+  static const ParameterTable& table() { return model_by_name("weber_penn").table(); }
+  Solution start() const {
+    Solution solution{.values = preset.values, .plant_seed = 1};
+    solution.score = score_of(task, solution);
+    return solution;
+  }
+};
+
+RefinementSettings settings_of(int order, long steps, Seed seed = 1) {
+  return {.order = order, .steps = steps, .key = root_key(seed)};
+}
+
+TEST(BranchRefinement, FindsABetterTreeAndSaysItsScore) {
+  const SmallTask small;
+  Solution solution = small.start();
+  const double before = solution.score;
+  EXPECT_GE(refine_branches(small.task, settings_of(1, 2000), solution), 2000);
+  EXPECT_LT(solution.score, before - 0.02);
+  EXPECT_EQ(solution.score, score_of(small.task, solution));
+  EXPECT_EQ(solution.values, small.preset.values);
+}
+
+TEST(BranchRefinement, IsNeverWorseThanBefore) {
+  const SmallTask small;
+  Solution solution = small.start();
+  for (int round = 0; round < 12; ++round) {
+    const double before = solution.score;
+    refine_branches(small.task, settings_of(round % 3, 100, static_cast<Seed>(round)), solution);
+    EXPECT_LE(solution.score, before);
+  }
+}
+
+TEST(BranchRefinement, OverridesBranchesOfItsOrderOnly) {
+  const SmallTask small;
+  for (const int order : {0, 1, 2}) {
+    Solution solution = small.start();
+    refine_branches(small.task, settings_of(order, 400), solution);
+    ASSERT_FALSE(solution.overrides.empty()) << order;
+    for (const OverrideNode& node : solution.overrides.nodes)
+      EXPECT_EQ(node.path.size(), static_cast<std::size_t>(order) + 1);
+  }
+}
+
+TEST(BranchRefinement, LeavesOutWhatAModelCannotChange) {
+  SmallTask small;
+  small.task.model = &model_by_name("acer.lsys");
+  Solution solution{.values = small.task.model->table().defaults(), .plant_seed = 1};
+  solution.score = score_of(small.task, solution);
+  for (const int order : {0, 1, 2}) {
+    const double before = solution.score;
+    refine_branches(small.task, settings_of(order, 300), solution);
+    EXPECT_LE(solution.score, before);
+  }
+  EXPECT_EQ(solution.score, score_of(small.task, solution));
+  ASSERT_FALSE(solution.overrides.empty());
+  for (const OverrideNode& node : solution.overrides.nodes)
+    for (const Override& entry : node.set.overrides) EXPECT_NE(entry.quantity, Quantity::seed);
+}
+
+TEST(BranchRefinement, ATreeWithoutSuchBranchesIsLeftAsItIs) {
+  SmallTask small;
+  small.set("levels", 1);
+  Solution solution = small.start();
+  EXPECT_EQ(refine_branches(small.task, settings_of(1, 100), solution), 0);
+  EXPECT_TRUE(solution.overrides.empty());
+}
+
+bool same(const BranchRounds& a, const BranchRounds& b) {
+  return branch_rounds_to_json(a, "weber_penn") == branch_rounds_to_json(b, "weber_penn");
+}
+
+TEST(BranchRounds, AreTheSameForAnyNumberOfThreads) {
+  const SmallTask small;
+  BranchRounds one = begin_branch_rounds(small.task, {small.start()}, 10), three = one;
+  for (int round = 0; round < 2; ++round) {
+    refine_round(small.task, 5, 1, one);
+    refine_round(small.task, 5, 3, three);
+  }
+  EXPECT_TRUE(same(one, three));
+}
+
+TEST(BranchRounds, GoOnFromWhatIsWrittenWithTheSameBits) {
+  const SmallTask small;
+  BranchRounds unbroken = begin_branch_rounds(small.task, {small.start()}, 10);
+  refine_round(small.task, 5, 1, unbroken);
+  refine_round(small.task, 5, 1, unbroken);
+  BranchRounds resumed =
+      branch_rounds_from_json(branch_rounds_to_json(unbroken, "weber_penn"), "branches.json");
+  refine_round(small.task, 5, 1, unbroken);
+  refine_round(small.task, 5, 1, resumed);
+  EXPECT_TRUE(same(unbroken, resumed));
+}
+
+TEST(BranchRounds, TextThatIsNoStateIsRefused) {
+  for (const char* text : {"", "{}", "[1]", "{\"rounds\": \"x\"}",
+                           R"({"rounds":1,"steps":1,"search_evaluations":1,"search_limit":1,"lanes":[]})"})
+    EXPECT_THROW(branch_rounds_from_json(text, "branches.json"), InputError) << text;
+}
+
+}  // namespace
+}  // namespace espalier

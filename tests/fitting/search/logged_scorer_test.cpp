@@ -1,0 +1,119 @@
+// The log and what is replayed from it: nothing is computed twice, nothing lost, nothing taken for another.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <fstream>
+
+#include <espalier/core/error.h>
+#include <espalier/fitting/search/logged_scorer.h>
+
+#include "support/fakes.h"
+#include "support/run_espalier.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::vector<ParameterValues> candidates(int count) {
+  std::vector<ParameterValues> list;
+  for (int i = 0; i < count; ++i) list.push_back({static_cast<double>((i * 7) % 11), 0.5});
+  return list;
+}
+
+struct LoggedRun {
+  std::vector<double> scores;
+  BestCandidate best;
+  long computed = 0, evaluations = 0;
+};
+
+/// Scores `total` candidates in batches of `batch`, with the log in `folder`.
+LoggedRun run_logged(const fs::path& folder, int total, int batch, long limit = 0) {
+  SumScorer inner;
+  EvaluationLog log(folder / "evaluations.bin");
+  LoggedScorer scorer(
+      inner, log, limit, [] { return 1.5; }, [](const ScoredBatch&) {});
+  const auto all = candidates(total);
+  LoggedRun result;
+  result.scores.resize(all.size());
+  for (int first = 0; first < total; first += batch) {
+    const auto count = static_cast<std::size_t>(std::min(batch, total - first));
+    scorer.score(std::span(all).subspan(static_cast<std::size_t>(first), count),
+                 std::span(result.scores).subspan(static_cast<std::size_t>(first), count));
+  }
+  result.best = scorer.best();
+  result.computed = inner.scored;
+  result.evaluations = scorer.evaluations();
+  return result;
+}
+
+std::string error_of_log(const fs::path& path) {
+  try {
+    EvaluationLog log(path);
+    log.append(std::vector<LoggedEvaluation>(10));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+RC_GTEST_PROP(EvaluationLog, ARunCutAtAnyByteResumesToTheUnbrokenRun, ()) {
+  const int total = *rc::gen::inRange(1, 40), batch = *rc::gen::inRange(1, 9);
+  const fs::path folder = fresh_folder("log");
+  const LoggedRun unbroken = run_logged(folder, total, batch);
+  const auto bytes = read_text_file(folder / "evaluations.bin");
+  const auto kept = *rc::gen::inRange<std::size_t>(0, bytes.size() + 1);
+  fs::resize_file(folder / "evaluations.bin", kept);
+  const LoggedRun resumed = run_logged(folder, total, batch);
+  RC_ASSERT(resumed.scores == unbroken.scores);
+  RC_ASSERT(resumed.best.values == unbroken.best.values &&
+            resumed.best.evaluation == unbroken.best.evaluation);
+  RC_ASSERT(resumed.computed == total - (kept < 8 ? 0 : static_cast<long>((kept - 8) / 16)));
+  RC_ASSERT(read_text_file(folder / "evaluations.bin") == bytes);
+  fs::remove_all(folder);
+}
+
+TEST(LoggedScorer, StopsEvaluatingAtTheLimitInsideABatch) {
+  const LoggedRun cut = run_logged(fresh_folder("limit"), 30, 8, 13),
+                  whole = run_logged(fresh_folder("no_limit"), 30, 8);
+  EXPECT_EQ(cut.computed, 13);
+  EXPECT_EQ(cut.evaluations, 13);
+  for (std::size_t i = 0; i < 30; ++i)
+    EXPECT_EQ(cut.scores[i], i < 13 ? whole.scores[i] : kNotEvaluated) << i;
+}
+
+TEST(LoggedScorer, KeepsTheFirstOfEqualBests) {
+  EXPECT_EQ(run_logged(fresh_folder("ties"), 30, 4).best.evaluation, 1);
+}
+
+TEST(LoggedScorer, RefusesALogOfOtherCandidates) {
+  const fs::path folder = fresh_folder("other");
+  run_logged(folder, 10, 5);
+  SumScorer inner;
+  EvaluationLog log(folder / "evaluations.bin");
+  LoggedScorer scorer(
+      inner, log, 0, [] { return 0.0; }, [](const ScoredBatch&) {});
+  double score = 0;
+  EXPECT_THROW(scorer.score(std::vector<ParameterValues>{{3.0, 0.25}}, {&score, 1}), InputError);
+}
+
+TEST(EvaluationLog, ReportsAFullDisk) {
+  const fs::path folder = fresh_folder("full");
+  fs::create_symlink("/dev/full", folder / "evaluations.bin");
+  EXPECT_THAT(error_of_log(folder / "evaluations.bin"), HasSubstr("No space left"));
+}
+
+TEST(EvaluationLog, RefusesAnotherKindOfFile) {
+  const fs::path path = fresh_folder("kind") / "evaluations.bin";
+  std::ofstream(path) << "a shopping list";
+  EXPECT_THAT(error_of_log(path), HasSubstr("expected a log of evaluations"));
+}
+
+TEST(EvaluationLog, ReportsAFolderThatIsNotThere) {
+  EXPECT_THAT(error_of_log("/nowhere/evaluations.bin"), HasSubstr("No such file"));
+}
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,139 @@
+// The space of the bundled presets: what it holds and leaves out, points of it, and the file.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numeric>
+
+#include <espalier/core/error.h>
+#include <espalier/fitting/species_space/preset_collection.h>
+#include <espalier/fitting/species_space/species_space.h>
+#include <espalier/fitting/species_space/species_space_file.h>
+#include <espalier/models/models.h>
+
+#include "support/run_espalier.h"
+
+namespace espalier {
+namespace {
+
+using testing::HasSubstr;
+
+SpeciesSpace bundled_space(int components, const std::string& encoding = "monotone") {
+  return make_species_space(load_presets({}), encoding, components);
+}
+
+/// Rows that are choices alone always mean something here.
+bool row_means(const Encoding& encoding, const EncodedValues& encoded, std::size_t row) {
+  bool has_columns = false, means = false;
+  for (std::size_t i = 0; i < encoded.means.size(); ++i)
+    if (encoding.columns()[i].row == row) has_columns = true, means = means || encoded.means[i];
+  return means || !has_columns;
+}
+
+std::string error_of(const std::vector<Preset>& presets, int components) {
+  try {
+    make_species_space(presets, "monotone", components);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(SpeciesSpace, AllComponentsHoldEverySpecies) {
+  for (const char* encoding : {"raw", "monotone"}) {
+    const SpeciesSpace space = bundled_space(18, encoding);
+    for (const double error : reconstruction_error(space).of_species) EXPECT_LT(error, 1e-9);
+    for (const SpeciesPoint& species : space.species) {
+      const PlantAtPoint plant = plant_at(space, species.coordinates);
+      EXPECT_EQ(plant.nearest, species.name);
+      EXPECT_LT(plant.outside, 1e-4);
+      const EncodedValues wanted = space.encoding->encode(species.values),
+                          got = space.encoding->encode(plant.values);
+      for (std::size_t i = 0; i < wanted.choices.size(); ++i)
+        if (row_means(*space.encoding, wanted, space.encoding->choices()[i].row)) {
+          EXPECT_EQ(got.choices[i], wanted.choices[i])
+              << species.name << " " << space.encoding->choices()[i].name;
+        }
+      for (std::size_t i = 0; i < wanted.numbers.size(); ++i)
+        EXPECT_NEAR(wanted.means[i] ? got.numbers[i] : wanted.numbers[i], wanted.numbers[i],
+                    1e-9 * std::max(1.0, std::fabs(wanted.numbers[i])))
+            << encoding << " " << species.name << " " << space.encoding->columns()[i].name;
+    }
+  }
+}
+
+TEST(SpeciesSpace, TwoComponentsLeaveSomethingOutAndSaySo) {
+  const ReconstructionError error = reconstruction_error(bundled_space(2));
+  for (const double of_species : error.of_species) EXPECT_GT(of_species, 0.1);
+  EXPECT_THAT(error.constant_columns, testing::Contains("tropism_x"));
+}
+
+TEST(SpeciesSpace, MoreComponentsLeaveLessOut) {
+  double before = 1e9;
+  for (const int count : {1, 2, 5, 10, 18}) {
+    const std::vector<double> errors = reconstruction_error(bundled_space(count)).of_species;
+    const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
+    EXPECT_LT(sum, before);
+    before = sum;
+  }
+}
+
+TEST(SpeciesSpace, APointFarOutIsClampedAndSaysHowFar) {
+  const SpeciesSpace space = bundled_space(2);
+  const PlantAtPoint inside = plant_at(space, Eigen::Vector2d(0, 0));
+  EXPECT_EQ(inside.outside, 0);
+  EXPECT_TRUE(inside.clamped.empty());
+  const PlantAtPoint outside = plant_at(space, Eigen::Vector2d(0, 1000));
+  EXPECT_NEAR(outside.outside, 990, 10);
+  EXPECT_GT(outside.clamped.size(), 10u);
+  for (const ClampedValue& clamped : outside.clamped)
+    EXPECT_NE(clamped.wanted, clamped.got) << clamped.parameter;
+}
+
+RC_GTEST_PROP(SpeciesSpace, EveryPointIsAValidPlant, ()) {
+  static const SpeciesSpace kMonotone = bundled_space(2), kRaw = bundled_space(2, "raw");
+  const Eigen::Vector2d point(*rc::gen::inRange(-4000, 4000) * 1e-2, *rc::gen::inRange(-4000, 4000) * 1e-2);
+  for (const SpeciesSpace* space : {&kMonotone, &kRaw}) {
+    const ParameterValues values = plant_at(*space, point).values;
+    for (std::size_t row = 0; row < values.size(); ++row)
+      check_value(space->model->table().rows[row], values[row], "point");
+  }
+}
+
+TEST(SpeciesSpace, APlantMovedToWhereItIsStaysItself) {
+  const SpeciesSpace space = bundled_space(2);
+  for (const SpeciesPoint& species : space.species) {
+    EXPECT_EQ(plant_moved_to(space, species.values, species.coordinates).values, species.values);
+    const Eigen::Vector2d away = species.coordinates + Eigen::Vector2d(0.5, -0.5);
+    EXPECT_NE(plant_moved_to(space, species.values, away).values, species.values);
+  }
+}
+
+TEST(SpeciesSpace, TheFileKeepsEveryBit) {
+  const SpeciesSpace space = bundled_space(3);
+  const std::string text = species_space_to_toml(space);
+  const auto file = fresh_folder("space") / "space.toml";
+  std::ofstream(file) << text;
+  const SpeciesSpace read = read_species_space(file);
+  EXPECT_EQ(species_space_to_toml(read), text);
+  EXPECT_EQ(read.pca.components, space.pca.components);
+  EXPECT_EQ(read.pca.mean, space.pca.mean);
+  EXPECT_EQ(read.species[4].values, space.species[4].values);
+  const Eigen::Vector3d point(0.8, -1.2, 3);
+  EXPECT_EQ(plant_at(read, point).values, plant_at(space, point).values);
+}
+
+TEST(SpeciesSpace, RefusesPresetsThatSpanNothing) {
+  const Preset aspen = load_preset("quaking_aspen"), birch = load_preset("silver_birch");
+  EXPECT_THAT(error_of({aspen}, 1), HasSubstr("got 1, expected at least 2"));
+  EXPECT_THAT(error_of({aspen, aspen}, 1), HasSubstr("the same values"));
+  EXPECT_THAT(error_of({aspen, birch}, 2), HasSubstr("--components: got 2, expected 1 … 1"));
+  Preset other = birch;
+  other.model = "lsystem";
+  EXPECT_THAT(error_of({aspen, other}, 1), HasSubstr("expected one model"));
+}
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,164 @@
+// Records survive the trip through TOML; what cannot be run is refused in one line.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+
+#include <espalier/core/error.h>
+#include <espalier/fitting/task/fit_record.h>
+
+#include "support/run_espalier.h"
+
+namespace espalier {
+namespace {
+
+using testing::HasSubstr;
+
+FitRecord full_record() {
+  FitRecord record;
+  record.views = {{"/pictures/a \"tree\".png", {}}, {"/b.png", {90, -12.5, Projection::perspective, 30}}};
+  record.target.method = SeparationMethod::luminance;
+  record.target.side = TreeSide::dark;
+  record.target_hash = "0123456789abcdef";
+  record.objective = "iou";
+  record.fit_seeds = 3;
+  record.optimizer = "random_search";
+  record.budget = {1234, 0.1, 0.75};
+  record.growth = {100, 1e5};
+  record.seed = 18446744073709551615ull;
+  record.start = "palm";
+  record.search = {{"g_scale", "curve*"}, {{"curve_v[1]", -0.1}, {"levels", 3}}};
+  record.kind = "palm";
+  record.train_to_target = true;
+  record.budget.branch_rounds = 17;
+  record.budget.finish_from = 9;
+  record.stages = {true, false, true, true};
+  record.height_m = 12.34;
+  record.versions = {{"espalier", "0.1.0"}};
+  return record;
+}
+
+RecordedRun through_file(const std::string& text) {
+  const auto path = fresh_folder("record") / "run.toml";
+  std::ofstream(path) << text;
+  return read_record(path);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+std::string reading_error(const std::string& text) {
+  try {
+    through_file(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string checking_error(const std::function<void(FitRecord&)>& spoil) {
+  FitRecord record = full_record();
+  spoil(record);
+  try {
+    check_record(record);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(FitRecord, ReadsBackWhatItWrote) {
+  const std::string text = record_to_toml(full_record(), FitOutcome{77, 5, 3, "time"});
+  const auto [record, outcome] = through_file(text);
+  EXPECT_EQ(record_to_toml(record, outcome), text);
+  EXPECT_EQ(record.seed, full_record().seed);
+  EXPECT_EQ(record.search.fixed, full_record().search.fixed);
+  EXPECT_EQ(record.views[1].view.projection, Projection::perspective);
+  ASSERT_TRUE(outcome);
+  EXPECT_EQ(outcome->evaluations, 77);
+  EXPECT_EQ(outcome->branch_rounds, 5);
+  EXPECT_EQ(outcome->finish_from, 3);
+  EXPECT_EQ(record.stages, full_record().stages);
+}
+
+RC_GTEST_PROP(FitRecord, NumbersKeepTheirBits, (double value)) {
+  RC_PRE(std::isfinite(value));
+  FitRecord record = full_record();
+  record.search.fixed = {{"x", value}};
+  RC_ASSERT(through_file(record_to_toml(record, {})).record.search.fixed.at("x") == value);
+}
+
+TEST(FitRecord, NamesFileAndKeyOfWhatIsMissingOrWrong) {
+  const std::string text = record_to_toml(full_record(), {});
+  EXPECT_THAT(reading_error(replaced(text, "fit_seeds = 3\n", "")), HasSubstr("key 'fit_seeds'"));
+  EXPECT_THAT(reading_error(replaced(text, "seconds = 0.1", "seconds = \"long\"")), HasSubstr("run.toml:"));
+  EXPECT_THAT(reading_error(replaced(text, "format = 1", "format = 9")), HasSubstr("got 9"));
+  EXPECT_THAT(reading_error("nonsense"), HasSubstr("run.toml:1"));
+}
+
+TEST(FitRecord, OfEarlierVersionsHasNoBranchRounds) {
+  const std::string text = record_to_toml(full_record(), {});
+  std::string older = replaced(replaced(text, "branch_rounds = 17", ""), "train_to_target = true\n", "");
+  older = replaced(replaced(older, "finish_from = 9", ""), "stages = \"search,branches,finish\"", "");
+  const FitRecord record = through_file(older).record;
+  EXPECT_EQ(record.budget.branch_rounds, 0);
+  EXPECT_FALSE(record.train_to_target);
+}
+
+TEST(FitRecord, RefusesRoundsWithoutEndAndUnknownKinds) {
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.kind = "bush"; }), HasSubstr("got 'bush', expected auto"));
+  EXPECT_THAT(checking_error([](FitRecord& r) {
+                r.budget = {100, 0, 0, kWhileTimeLasts};
+              }),
+              HasSubstr("without an end"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.budget.branch_rounds = -2; }),
+              HasSubstr("--branch-rounds"));
+}
+
+TEST(FitRecord, AcceptsAWholeRecord) {
+  EXPECT_EQ(checking_error([](FitRecord&) {}), "no error");
+}
+
+TEST(FitRecord, NamesTheClosestOptimizer) {
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.optimizer = "cma"; }), HasSubstr("cma_es"));
+}
+
+TEST(FitRecord, RefusesWhatCannotRun) {
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.views.clear(); }), HasSubstr("expected IMAGE"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.budget = {0, 0, 0}; }), HasSubstr("no budget"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.budget.seconds = -1; }), HasSubstr("--seconds"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.budget.seconds = NAN; }), HasSubstr("--seconds"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.budget.target_fitness = 2; }),
+              HasSubstr("--target-fitness"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.fit_seeds = 0; }), HasSubstr("--fit-seeds"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.height_m = 0; }), HasSubstr("--height"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.target.size_px = 8; }), HasSubstr("--size"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.growth.max_stems = 0; }), HasSubstr("--max-stems"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.optimizer_settings["nope"] = 1; }), HasSubstr("nope"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.objective = "iuo"; }), HasSubstr("iou"));
+}
+
+TEST(ParseView, ReadsFileAzimuthElevationAndFieldOfView) {
+  EXPECT_EQ(parse_view("a.png").picture, "a.png");
+  const ViewRecord side = parse_view("C:odd name.png:90,-5");
+  EXPECT_EQ(side.picture, "C:odd name.png");
+  EXPECT_EQ(side.view.azimuth_deg, 90);
+  EXPECT_EQ(side.view.elevation_deg, -5);
+  EXPECT_EQ(side.view.projection, Projection::orthographic);
+  EXPECT_EQ(parse_view("a.png:0,0,50").view.field_of_view_deg, 50);
+}
+
+TEST(ParseView, RefusesAnglesThatAreNone) {
+  for (const char* bad : {"a.png:", "a.png:90", "a.png:x,y", "a.png:0,0,0", "a.png:nan,0", "a.png:0,91",
+                          ":1,2", "a.png:1,2,3,4"})
+    EXPECT_THROW(parse_view(bad), InputError) << bad;
+}
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,91 @@
+// The pictures in targets/: each may ship (its sidecar says so) and shows a tree.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include <espalier/core/toml_file.h>
+#include <espalier/image/measures/compare.h>
+#include <espalier/image/reading/read_target.h>
+#include <espalier/image/reading/roots.h>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> files_in_targets(const std::string& extension) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(ESPALIER_SOURCE_DIR "/targets"))
+    if (entry.path().extension() == extension) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+class BundledTarget : public testing::TestWithParam<fs::path> {
+ protected:
+  toml::table read_sidecar() {
+    fs::path path = GetParam();
+    path.replace_extension(".toml");
+    return parse_toml(read_toml_text(path), path.string());
+  }
+};
+
+TEST_P(BundledTarget, SidecarSaysWhereItIsFromAndThatItMayShip) {
+  const toml::table sidecar = read_sidecar();
+  EXPECT_NE(sidecar["title"].value_or(std::string()), "");
+  EXPECT_NE(sidecar["source"].value_or(std::string()), "");
+  EXPECT_THAT(
+      sidecar["licence"].value_or(std::string()),
+      testing::AnyOf("public domain", "CC0-1.0", "made for this project, under its licence (Apache-2.0)"));
+  EXPECT_EQ(sidecar["camera"]["projection"].value_or(std::string()), "orthographic");
+  EXPECT_EQ(sidecar["camera"]["view"].value_or(std::string()), "front");
+}
+
+TEST_P(BundledTarget, SidecarTellsTheTruthWhereItIsKnown) {
+  const std::string name = GetParam().stem().string();
+  const toml::table sidecar = read_sidecar();
+  const bool known = name.starts_with("reference_");
+  EXPECT_EQ(sidecar.contains("truth"), known);
+  if (!known) return;
+  const std::string species = sidecar["truth"]["species"].value_or(std::string());
+  EXPECT_EQ("reference_" + species, name);
+  EXPECT_TRUE(fs::exists(ESPALIER_SOURCE_DIR "/src/weber_penn/species/" + species + ".toml"));
+  EXPECT_EQ(sidecar["truth"]["tree"].value_or(0), 1);
+}
+
+TEST_P(BundledTarget, GivesASaneMask) {
+  const TargetPicture target = read_target(GetParam());
+  const double share = static_cast<double>(area_px(target.mask)) / (256.0 * 256.0);
+  EXPECT_GT(share, 0.05);
+  EXPECT_LT(share, 0.6);
+  EXPECT_GT(target.tree_height_px, 0.5f * 256);
+  const Mask straight = without_roots(target.mask);
+  EXPECT_TRUE(straight.get(128, static_cast<int>(base_row_px(256)) - 2)) << "the trunk stands in the middle";
+  for (int x = 0; x < 256; ++x) {
+    EXPECT_FALSE(target.mask.get(x, 0));
+    EXPECT_FALSE(target.mask.get(x, 255));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, BundledTarget, testing::ValuesIn(files_in_targets(".png")),
+                         [](const auto& info) { return info.param.stem().string(); });
+
+TEST(BundledTargets, EveryPictureHasASidecarAndTheReverse) {
+  std::set<std::string> pictures, sidecars;
+  for (const fs::path& path : files_in_targets(".png")) pictures.insert(path.stem());
+  for (const fs::path& path : files_in_targets(".toml")) sidecars.insert(path.stem());
+  EXPECT_EQ(pictures, sidecars);
+  EXPECT_GE(pictures.size(), 23u);
+}
+
+TEST(BundledTargets, TheCutOutFirIsTheFirOfTheMask) {
+  const Mask fir = read_target(ESPALIER_SOURCE_DIR "/targets/fir.png").mask;
+  const Mask same = read_target(ESPALIER_SOURCE_DIR "/targets/tr_fir.png").mask;
+  EXPECT_GT(iou(fir, same), 0.9);
+}
+
+}  // namespace
+}  // namespace espalier

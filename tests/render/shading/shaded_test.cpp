@@ -1,0 +1,120 @@
+// Laws of shaded pictures: what is covered, what is lit, the same bits every time.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <espalier/render/embree/embree_renderer.h>
+#include <espalier/render/shading/shaded.h>
+#include <espalier/render/silhouette.h>
+
+#include "support/hand_made_plants.h"
+
+namespace espalier {
+namespace {
+
+Camera camera_of(const Plant& plant, int size_px, float elevation_deg = 0) {
+  View view;
+  view.elevation_deg = elevation_deg;
+  return frame_bounds(bounds(plant), view, size_px, size_px);
+}
+
+int brightness(Rgb c) { return c.r + c.g + c.b; }
+
+Plant screen(Vec3 normal_side) {
+  Plant plant;
+  plant.leaf_shape = 9;
+  add_leaf(plant, {0, 0, 0}, {0, 0, 1}, normal_side, 2, 2);
+  return plant;
+}
+
+TEST(Shaded, AnEmptyPlantIsBackground) {
+  ShadedSettings settings;
+  settings.background_top = settings.background_bottom = {1, 1, 1};
+  const Picture picture = render_shaded({}, camera_of({}, 16), settings);
+  for (const Rgb pixel : picture.pixels) EXPECT_EQ(pixel, (Rgb{255, 255, 255}));
+}
+
+TEST(Shaded, CoversTheSilhouetteAndNothingElse) {
+  const Plant plant = random_tree(60, 400, 1);
+  const Camera camera = camera_of(plant, 96);
+  ShadedSettings settings;
+  settings.background_top = settings.background_bottom = {1, 1, 1};
+  settings.samples_per_px = 64;
+  const Picture picture = render_shaded(plant, camera, settings);
+  Mask mask;
+  make_embree_renderer()->draw(plant, camera, mask);
+  std::size_t missing = 0;
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 96; ++x) {
+      const bool is_white = picture.at(x, y) == Rgb{255, 255, 255};
+      missing += mask.get(x, y) && is_white;
+    }
+  EXPECT_LE(missing, 1u);  // specks that fall between the samples of a pixel
+}
+
+TEST(Shaded, WhatStandsBetweenSunAndLeafDarkensIt) {
+  Plant plant = screen({1, 0, 0});
+  const Camera camera = camera_of(plant, 32);
+  ShadedSettings settings;
+  settings.sun_azimuth_deg = -60;
+  settings.sun_elevation_deg = 0;
+  const Rgb lit = render_shaded(plant, camera, settings).at(16, 16);
+  add_leaf(plant, {-8.66f, -5, -2}, {0, 0, 1}, {0.5f, -0.866f, 0}, 6, 6);  // 10 m towards the sun, facing it
+  const Rgb dark = render_shaded(plant, camera, settings).at(16, 16);
+  EXPECT_LT(4 * brightness(dark), 3 * brightness(lit));
+}
+
+TEST(Shaded, ALeafLetsLightThrough) {
+  const Plant plant = screen({1, 0, 0});
+  ShadedSettings settings;
+  settings.sun_azimuth_deg = 180;  // behind the leaf
+  settings.sun_elevation_deg = 10;
+  const Rgb through = render_shaded(plant, camera_of(plant, 32), settings).at(16, 16);
+  settings.leaf_through = {0, 0, 0};
+  const Rgb opaque = render_shaded(plant, camera_of(plant, 32), settings).at(16, 16);
+  EXPECT_GT(brightness(through), brightness(opaque) + 30);
+}
+
+TEST(Shaded, TheGroundIsSeenFromAboveOnly) {
+  const Plant plant = random_tree(20, 100, 1);
+  ShadedSettings without, with;
+  without.samples_per_px = with.samples_per_px = 2;
+  with.ground = true;
+  const auto pixels_that_differ = [&](float elevation_deg) {
+    const Camera camera = camera_of(plant, 48, elevation_deg);
+    const Picture a = render_shaded(plant, camera, without), b = render_shaded(plant, camera, with);
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) differing += a.pixels[i] != b.pixels[i];
+    return differing;
+  };
+  EXPECT_EQ(pixels_that_differ(0), 0u);
+  EXPECT_GT(pixels_that_differ(15), 100u);
+}
+
+TEST(Shaded, AnyNumberOfThreadsGivesTheSameBits) {
+  const Plant plant = random_tree(40, 300, 2);
+  const Camera camera = camera_of(plant, 64, 10);
+  ShadedSettings settings;
+  settings.samples_per_px = 4;
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const Picture one = render_shaded(plant, camera, settings);
+  omp_set_num_threads(3);
+  const Picture three = render_shaded(plant, camera, settings);
+  omp_set_num_threads(threads);
+  EXPECT_EQ(one.pixels, three.pixels);
+}
+
+TEST(Shaded, PartsHaveTheColorsThatTheModelGaveThem) {
+  Plant leaf = screen({1, 0, 0});
+  leaf.leaves.color = {{255, 0, 0, true}};
+  Plant stem;
+  add_cylinder(stem, {0, 0, 0}, {0, 0, 2}, 0.5f);
+  stem.knots.color = {{0, 0, 255, true}, {}};
+  const Rgb red = render_shaded(leaf, camera_of(leaf, 32)).at(16, 16);
+  const Rgb blue = render_shaded(stem, camera_of(stem, 32)).at(16, 16);
+  EXPECT_GT(red.r, 3 * (red.g + red.b));
+  EXPECT_GT(blue.b, 3 * (blue.r + blue.g));
+}
+
+}  // namespace
+}  // namespace espalier
