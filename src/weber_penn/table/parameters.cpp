@@ -8,6 +8,7 @@
 #include <variant>
 
 #include <espalier/core/error.h>
+#include <espalier/plant/leaf_outlines.h>
 #include <espalier/weber_penn/table/parameters.h>
 
 namespace espalier {
@@ -71,11 +72,11 @@ const Definition kDefinitions[] = {
   {&P::branch_dist, "branch_dist", "1", {0, 50}, {0, 4}, kReal, kNumber, "", "", "0 alternate, 1 opposite, above 1 whorls of branch_dist + 1 stems"},
   {&P::radius_mod, "radius_mod", "1", {0, 20}, {0.1, 3}, kLog, kNumber, "12", "", "factor on the radius of stems"},
   {&P::leaf_blos_num, "leaf_blos_num", "1", {-2000, 10000}, {0, 120}, kWhole, kFlag, "*", "Leaves", "leaves or blossom on each stem of the last level; negative: in a fan at its tip"},
-  {&P::leaf_shape, "leaf_shape", "1", {0, 10}, {0, 10}, kChoice, kNumber, "", "LeafShape", "outline of a leaf"},
+  {&P::leaf_shape, "leaf_shape", "1", {0, kLeafShapes.size()}, {0, kLeafShapes.size()}, kChoice, kNumber, "", "LeafShape", "outline of a leaf"},
   {&P::leaf_scale, "leaf_scale", "m", {0, 50}, {0.03, 0.5}, kLog, kNumber, "*", "LeafScale", "length of a leaf"},
   {&P::leaf_scale_x, "leaf_scale_x", "1", {0, 50}, {0.05, 1.5}, kLog, kNumber, "*", "LeafScaleX", "width of a leaf relative to its outline's"},
   {&P::leaf_bend, "leaf_bend", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "LeafBend", "how far leaves turn to face outwards"},
-  {&P::blossom_shape, "blossom_shape", "1", {1, 3}, {1, 3}, kChoice, kNumber, "", "", "form of a blossom"},
+  {&P::blossom_shape, "blossom_shape", "1", {1, kBlossomShapes.size()}, {1, kBlossomShapes.size()}, kChoice, kNumber, "", "", "form of a blossom"},
   {&P::blossom_scale, "blossom_scale", "m", {0, 50}, {0, 0.3}, kReal, kNumber, "", "", "size of a blossom"},
   {&P::blossom_rate, "blossom_rate", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "", "fraction of the leaves that are blossom"},
   {&P::tropism_x, "tropism_x", "1", {-100, 100}, {-3, 3}, kReal, kNumber, "*", "", "pull of all stems along x"},
@@ -96,6 +97,12 @@ struct ChoiceNames {
   std::vector<std::string> names;
 };
 
+std::vector<std::string> leaf_shape_names() {
+  std::vector<std::string> names{"default"};
+  names.insert(names.end(), kLeafShapes.begin(), kLeafShapes.end());
+  return names;
+}
+
 const std::vector<ChoiceNames>& choice_names() {
   static const std::vector<std::string> kCrownShapes = {
       "conical", "spherical",       "hemispherical", "cylindrical", "tapered_cylindrical",
@@ -103,11 +110,8 @@ const std::vector<ChoiceNames>& choice_names() {
   static const std::vector<ChoiceNames> kNames = {
       {"shape", 0, kCrownShapes},
       {"shape_2", 0, kCrownShapes},
-      {"leaf_shape",
-       0,
-       {"default", "ovate", "linear", "cordate", "maple", "palmate", "spiky_oak", "rounded_oak", "elliptic",
-        "rectangle", "triangle"}},
-      {"blossom_shape", 1, {"cherry", "orange", "magnolia"}},
+      {"leaf_shape", 0, leaf_shape_names()},
+      {"blossom_shape", 1, {kBlossomShapes.begin(), kBlossomShapes.end()}},
       {"relaxed_counts", 0, {"off", "on"}},
   };
   return kNames;
