@@ -1,4 +1,4 @@
-// Stage (a): how wide the trunk is and how far up it is bare, from the rows of a mask.
+// Stage 1 of a fit: how wide the trunk is and how far up it is bare, from the rows of a mask.
 #pragma once
 #include <espalier/image/masks/mask.h>
 #include <espalier/image/masks/mask_box.h>
