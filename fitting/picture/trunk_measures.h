@@ -13,7 +13,7 @@ struct TrunkMeasures {
   int stems = 0;          ///< runs of pixels a little above the foot
 };
 
-/// Of a mask that is set in `box` and nowhere else.
+/// Measures a mask that is set in `box` and nowhere else.
 TrunkMeasures measure_trunk(const Mask& mask, const MaskBox& box);
 
 }  // namespace espalier

@@ -28,8 +28,8 @@ FOREIGN_FLAGS = {
     "valgrind": ("--tool", "--inclusive"),
 }
 # Words that look like identifiers of ours: other tools' and papers' names, examples, symbols of equations.
-FOREIGN_WORDS = {"Compress", "ConditionCov", "McPheeters", "SplitMix64", "TolFun", "callgrind_annotate",
-                 "bark_a0522d", "bark_c8342b", "level_i", "r_ij"}
+FOREIGN_WORDS = {"Compress", "ConditionCov", "EqualFunValues", "McPheeters", "NumPy", "SplitMix64", "TolFun",
+                 "callgrind_annotate", "bark_a0522d", "bark_c8342b", "level_i", "r_ij"}
 
 FILE = re.compile(r"(?<![\w./*<-])((?:[\w.*-]+/)*[\w.*-]+\.(?:h|cpp|cmake|md|py))(?![\w/])")
 PLACE = re.compile(rf"(?<![\w./-])((?:{TOP_FOLDERS})/[\w./*-]*[\w*/])")
