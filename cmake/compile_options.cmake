@@ -13,3 +13,14 @@ if(ESPALIER_SANITIZE)
                          -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(espalier_options INTERFACE -fsanitize=${ESPALIER_SANITIZE})
 endif()
+
+# The presets of the sanitizers compile each room as one file (CMAKE_UNITY_BUILD), which takes a third of the time.
+# espalier_keep_apart(SOURCES...): not those that Highway compiles once for each instruction set.
+function(espalier_keep_apart)
+  foreach(source IN LISTS ARGN)
+    file(STRINGS ${source} compiled_often REGEX "include.*hwy/foreach_target\\.h" LIMIT_COUNT 1)
+    if(compiled_often)
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
+endfunction()
