@@ -42,7 +42,7 @@ struct Scores {
     for (const Metrics& run : runs) sum += run[metric];
     return sum / static_cast<double>(runs.size());
   }
-  /// Of the IoU: the largest less the smallest.
+  /// The largest IoU less the smallest.
   double spread() const {
     const auto [least, most] = std::minmax_element(
         runs.begin(), runs.end(), [](const Metrics& a, const Metrics& b) { return a[0] < b[0]; });
@@ -50,7 +50,7 @@ struct Scores {
   }
 };
 
-/// By target, then by entry.
+/// The scores by target, then by entry.
 struct AllScores {
   std::vector<std::string> targets;
   std::vector<Entry> entries;

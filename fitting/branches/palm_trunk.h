@@ -1,6 +1,6 @@
-// Stage (b), of palms: the trunk lies on its line from the start, so that the search is of the crown alone:
-// its parameters are those of a plain trunk, and overrides bend and lean it. This file knows the names of the
-// Weber–Penn model's parameters.
+// Stage 2 of a fit, of palms: the trunk lies on its line from the start, so that the search is of the crown
+// alone: its parameters are those of a plain trunk, and overrides bend and lean it. This file knows the names
+// of the Weber–Penn model's parameters.
 #pragma once
 #include <map>
 #include <string>

@@ -1,7 +1,7 @@
-// Stage (b): starts made to the measure of the picture, and the ranges that keep the search at plausible
-// plants: wood no thicker than the trunk that is seen, leaves no longer than leaves are, a crown that begins
-// where the picture's does. This file knows the names of the Weber–Penn model's parameters; a model without
-// them is left as it is.
+// Stage 2 of a fit: starts made to the measure of the picture, and the ranges that keep the search at
+// plausible plants: wood no thicker than the trunk that is seen, leaves no longer than leaves are, a crown
+// that begins where the picture's does. This file knows the names of the Weber–Penn model's parameters; a
+// model without them is left as it is.
 #pragma once
 #include <map>
 #include <string>

@@ -88,7 +88,7 @@ struct RecordedRun {
 /// Reads run.toml. Throws InputError with file, line, key, got and expected.
 RecordedRun read_record(const std::filesystem::path& path);
 
-/// "FILE", "FILE:azimuth,elevation" or "FILE:azimuth,elevation,field_of_view" (degrees; with the
+/// "FILE", "FILE:azimuth,elevation" or "FILE:azimuth,elevation,field of view" (degrees; with the
 /// last one in perspective). Throws InputError on numbers that are none or out of range.
 ViewRecord parse_view(const std::string& text);
 

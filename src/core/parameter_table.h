@@ -1,5 +1,5 @@
 // The parameter table of a model: one row a parameter. Reading presets, validation, the search
-// space, the command line and the docs are all made from it (DESIGN.md, idea 1).
+// space, the command line and the docs are all made from it (docs/architecture.md).
 // A parameter with a value at each level of branching has one row a level: "curve_v[2]".
 #pragma once
 #include <cstddef>

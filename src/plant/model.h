@@ -1,4 +1,4 @@
-// A model: a parameter table and a pure function from (values, seed) to a plant (DESIGN.md, idea 1).
+// A model: a parameter table and a pure function from (values, seed) to a plant (docs/architecture.md).
 #pragma once
 #include <cstddef>
 #include <cstdint>

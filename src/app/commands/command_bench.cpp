@@ -23,7 +23,7 @@ struct BenchOptions {
   std::string json, compare, only, plot;
 };
 
-/// As SVG, or as PNG where the name ends so.
+/// Writes SVG, or PNG where the name ends so.
 void write_plot(const std::filesystem::path& path, const LineChart& chart) {
   if (path.extension() == ".png")
     write_png(path, chart_to_picture(chart));
