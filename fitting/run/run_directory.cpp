@@ -52,7 +52,8 @@ std::string best_to_toml(const RunState& state) {
                          fmt::format("fitted to {} with {}, seed {}: fitness {:.4f}",
                                      state.record.views.front().picture.filename().string(),
                                      state.record.optimizer, state.record.seed, 1 - state.best.score),
-                         state.record.model, state.best.values, best_overrides(state), grown_into(state)});
+                         state.record.model, state.best.values, best_overrides(state), grown_into(state)},
+                        state.task.model->table());
 }
 
 std::string archived_to_toml(const RunState& state, std::size_t index) {
@@ -66,7 +67,7 @@ std::string archived_to_toml(const RunState& state, std::size_t index) {
   preset.values = solution.values;
   preset.overrides = state.task.overrides;
   preset.grown_into = grown_into(state);
-  return preset_to_toml(preset);
+  return preset_to_toml(preset, state.task.model->table());
 }
 
 /// The outlines that trained trees are grown into.
