@@ -11,11 +11,6 @@ namespace espalier {
 
 namespace {
 
-void set_if_known(const ParameterTable& table, const std::string& name, double value,
-                  ParameterValues& values) {
-  if (const auto row = table.find(name)) values[*row] = value;
-}
-
 std::vector<std::string> split_at_commas(const std::string& text) {
   std::vector<std::string> parts;
   std::stringstream stream(text);
@@ -67,19 +62,19 @@ void scale_plant(const ParameterTable& table, double factor, ParameterValues& va
 
 void prepare_start(const Model& model, const GrowthBudget& budget, double height_m, Seed plant_seed,
                    ParameterValues& values) {
-  set_if_known(model.table(), "g_scale_v", 0, values);
-  set_if_known(model.table(), "relaxed_counts", 1, values);
+  set_role(model.table(), {Role::tree_scale_variation}, 0, values);
+  set_role(model.table(), {Role::relaxed_counts}, 1, values);
   thin_until_grown(model, budget, plant_seed, values);
   scale_to_height(model, budget, height_m, plant_seed, values);
 }
 
 bool has_leaves(const ParameterTable& table, const ParameterValues& values) {
-  const auto row = table.find("leaf_blos_num");
-  return row && values[*row] != 0;
+  const auto row = table.find(Role::leaf_count);
+  return row && values[*row] != 0 && table.rows[*row].lower <= 0;
 }
 
 void take_leaves(const ParameterTable& table, ParameterValues& values) {
-  set_if_known(table, "leaf_blos_num", 0, values);
+  set_role(table, {Role::leaf_count}, 0, values);
 }
 
 std::vector<StartPoint> make_start_points(const Model& model, const std::string& start,
