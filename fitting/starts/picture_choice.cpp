@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <espalier/fitting/branches/palm_trunk.h>
 #include <espalier/fitting/picture/picture_reading.h>
 #include <espalier/fitting/starts/measured_start.h>
@@ -16,7 +18,18 @@ void fix(const FitTask& task, const std::string& name, double value, SearchChoic
   if (choice.free.empty() && task.model->table().find(name)) choice.fixed.insert({name, value});
 }
 
-constexpr const char* kPresetsWithFronds = "palm,fan_palm";
+void fix(const FitTask& task, Role role, double value, SearchChoice& choice) {
+  const ParameterTable& table = task.model->table();
+  const auto row = table.find(role);
+  if (row && value >= table.rows[*row].lower && value <= table.rows[*row].upper)
+    fix(task, table.rows[*row].full_name(), value, choice);
+}
+
+/// Where fits of palms start: from what the model has with fronds.
+std::string palm_starts(const Model& model, const std::string& start) {
+  const std::vector<std::string> presets = model.palm_presets();
+  return presets.empty() ? start : fmt::format("{}", fmt::join(presets, ","));
+}
 
 /// Whether the picture is to say anything.
 bool is_read(const FitRecord& record) { return record.kind != "any"; }
@@ -24,19 +37,18 @@ bool is_read(const FitRecord& record) { return record.kind != "any"; }
 /// The trunk that a palm is held to; none where the user says how to search, or the model has no such trunks.
 std::optional<TrunkLine> held_trunk(const FitRecord& record, const FitTask& task) {
   const bool is_left_to_us = record.start == "auto" && record.search.free.empty() && record.fit_seeds == 1;
-  if (!is_left_to_us || kind_of(record, task) != kind_name(TreeKind::palm) ||
-      task.model->table().model != FitRecord{}.model)
+  if (!is_left_to_us || kind_of(record, task) != kind_name(TreeKind::palm) || !can_hold_trunks(*task.model))
     return std::nullopt;
   return read_trunk_line(without_roots(task.views.front().target.mask()));
 }
 
 /// Fronds stay as long as they are while the trunk gets another length.
 void fix_trunk(const ParameterTable& table, const SearchChoice& choice, ParameterValues& values) {
-  const std::size_t scale = table.index_of("g_scale"), frond = table.index_of("length[1]");
+  const std::size_t scale = *table.find(Role::tree_scale);
   const double before_m = values[scale];
   apply_fixed(table, choice, values);
-  values[frond] =
-      std::clamp(values[frond] * before_m / values[scale], table.rows[frond].lower, table.rows[frond].upper);
+  if (const auto frond = table.find(Role::branch_length, 1))
+    set_role(table, {Role::branch_length, 1}, values[*frond] * before_m / values[scale], values);
 }
 
 void measure(const FitRecord& record, const FitTask& task, ParameterValues& values) {
@@ -55,13 +67,14 @@ std::string kind_of(const FitRecord& record, const FitTask& task) {
 SearchChoice choice_for(const FitRecord& record, const FitTask& task) {
   SearchChoice choice = record.search;
   const std::string kind = kind_of(record, task);
-  if (kind == "leafless") fix(task, "leaf_blos_num", 0, choice);
+  if (kind == "leafless") fix(task, Role::leaf_count, 0, choice);
   if (!is_read(record) || !choice.free.empty()) return choice;
   const PictureReading reading = reading_of(task);
-  if (record.kind == "auto" && reading.trunks == 1) fix(task, "branches[0]", 1, choice);
-  choice.ranges = measured_ranges(reading, kind_by_name(kind), target_height_m(record));
+  if (record.kind == "auto" && reading.trunks == 1) fix(task, Role::trunk_count, 1, choice);
+  choice.ranges = measured_ranges(task.model->table(), reading, kind_by_name(kind), target_height_m(record));
   if (const auto trunk = held_trunk(record, task))
-    for (const auto& [name, value] : palm_parameters(*trunk, task.views.front().metres_per_px))
+    for (const auto& [name, value] :
+         palm_parameters(task.model->table(), *trunk, task.views.front().metres_per_px))
       fix(task, name, value, choice);
   return choice;
 }
@@ -73,8 +86,9 @@ std::vector<StartPoint> starts_for(const FitRecord& record, const FitTask& task)
   if (!record.stages.search && record.start != "auto")
     return presets_as_written(task.model->table(), record.start);
   const bool has_fronds = held_trunk(record, task).has_value();
-  std::vector<StartPoint> starts = make_start_points(
-      *task.model, has_fronds ? kPresetsWithFronds : record.start, choice, record.growth, height_m, seed);
+  std::vector<StartPoint> starts =
+      make_start_points(*task.model, has_fronds ? palm_starts(*task.model, record.start) : record.start,
+                        choice, record.growth, height_m, seed);
   for (StartPoint& start : starts) {
     if (is_read(record) && record.start == "auto") measure(record, task, start.values);
     keep_in_ranges(task.model->table(), choice, start.values);

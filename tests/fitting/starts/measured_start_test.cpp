@@ -17,6 +17,11 @@ FitRecord record_of(const std::string& target, const std::string& kind = "auto")
   return record;
 }
 
+/// Of a leafy Weber–Penn tree, 10 m tall.
+std::map<std::string, SearchRange> ranges_of(const PictureReading& reading) {
+  return measured_ranges(model_by_name("weber_penn").table(), reading, TreeKind::leafy, 10);
+}
+
 class MeasuredStart : public testing::TestWithParam<const char*> {};
 
 TEST_P(MeasuredStart, EveryStartIsInTheRangesAndValid) {
@@ -65,23 +70,23 @@ TEST(MeasuredStart, WhatTheUserFreesHeSearchesInFull) {
 TEST(MeasuredStart, AThickTrunkHasThinBranches) {
   const PictureReading thick{.trunk_width = 0.3, .crown_base = 0.3, .crown_width = 0.8},
       thin{.trunk_width = 0.03, .crown_base = 0.3, .crown_width = 0.8};
-  const auto of_thick = measured_ranges(thick, TreeKind::leafy, 10);
-  const auto of_thin = measured_ranges(thin, TreeKind::leafy, 10);
+  const auto of_thick = ranges_of(thick);
+  const auto of_thin = ranges_of(thin);
   EXPECT_GT(of_thick.at("ratio").lower, of_thin.at("ratio").upper);
   EXPECT_LT(of_thick.at("radius_mod[1]").upper, of_thin.at("radius_mod[1]").upper);
 }
 
 TEST(MeasuredStart, WhatIsAsWideAsTheCrownIsNoTrunk) {
   const PictureReading crown{.trunk_width = 0.5, .crown_base = 1, .crown_width = 0.6};
-  EXPECT_LE(measured_ranges(crown, TreeKind::leafy, 10).at("ratio").upper, 0.03);
+  EXPECT_LE(ranges_of(crown).at("ratio").upper, 0.03);
 }
 
 TEST(MeasuredStart, ATrunkFlaresNoMoreThanItsFoot) {
   PictureReading straight{.trunk_width = 0.06, .foot_width = 0.06, .crown_base = 0.3, .crown_width = 0.8},
       flared = straight;
   flared.foot_width = 0.12;
-  EXPECT_LE(measured_ranges(straight, TreeKind::leafy, 10).at("flare").upper, 0.1);
-  EXPECT_NEAR(measured_ranges(flared, TreeKind::leafy, 10).at("flare").upper, 1, 1e-9);
+  EXPECT_LE(ranges_of(straight).at("flare").upper, 0.1);
+  EXPECT_NEAR(ranges_of(flared).at("flare").upper, 1, 1e-9);
 }
 
 TEST(MeasuredStart, AStartTakesTheWidthOfTheCrown) {
@@ -100,14 +105,14 @@ TEST(MeasuredStart, AStartTakesTheWidthOfTheCrown) {
 
 TEST(MeasuredStart, ACrownDownToTheGroundMayBeginThere) {
   PictureReading reading{.trunk_width = 0.4, .foot_width = 0.5, .crown_base = 0.6, .crown_width = 0.7};
-  EXPECT_EQ(measured_ranges(reading, TreeKind::leafy, 10).at("base_size[0]").lower, 0);
+  EXPECT_EQ(ranges_of(reading).at("base_size[0]").lower, 0);
 }
 
 TEST(MeasuredStart, AMoundUnderTheTrunkMayBeFilledByTheTree) {
   PictureReading reading{.trunk_width = 0.1, .foot_width = 0.2, .crown_base = 0.4, .crown_width = 0.7};
-  EXPECT_GT(measured_ranges(reading, TreeKind::leafy, 10).at("base_size[0]").lower, 0);
+  EXPECT_GT(ranges_of(reading).at("base_size[0]").lower, 0);
   reading.stand_height = 0.1;
-  EXPECT_EQ(measured_ranges(reading, TreeKind::leafy, 10).at("base_size[0]").lower, 0);
+  EXPECT_EQ(ranges_of(reading).at("base_size[0]").lower, 0);
 }
 
 }  // namespace
