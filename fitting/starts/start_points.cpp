@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include <espalier/core/error.h>
@@ -36,6 +37,12 @@ void scale_to_height(const Model& model, const GrowthBudget& budget, double heig
   }
 }
 
+/// The count of leaves, where it may be none.
+std::optional<std::size_t> leaves_row(const ParameterTable& table) {
+  const auto row = table.find(Role::leaf_count);
+  return row && table.rows[*row].lower <= 0 ? row : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<StartPoint> presets_as_written(const ParameterTable& table, const std::string& start) {
@@ -69,12 +76,12 @@ void prepare_start(const Model& model, const GrowthBudget& budget, double height
 }
 
 bool has_leaves(const ParameterTable& table, const ParameterValues& values) {
-  const auto row = table.find(Role::leaf_count);
-  return row && values[*row] != 0 && table.rows[*row].lower <= 0;
+  const auto row = leaves_row(table);
+  return row && values[*row] != 0;
 }
 
 void take_leaves(const ParameterTable& table, ParameterValues& values) {
-  set_role(table, {Role::leaf_count}, 0, values);
+  if (const auto row = leaves_row(table)) values[*row] = 0;
 }
 
 std::vector<StartPoint> make_start_points(const Model& model, const std::string& start,

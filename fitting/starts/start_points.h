@@ -26,7 +26,7 @@ void scale_plant(const ParameterTable& table, double factor, ParameterValues& va
 void prepare_start(const Model& model, const GrowthBudget& budget, double height_m, Seed plant_seed,
                    ParameterValues& values);
 
-/// Whether there are leaves that can be taken.
+/// Whether there are leaves, and a count of them that may be 0; without one there are none to take.
 bool has_leaves(const ParameterTable& table, const ParameterValues& values);
 void take_leaves(const ParameterTable& table, ParameterValues& values);
 
