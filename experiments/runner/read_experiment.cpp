@@ -13,7 +13,7 @@
 #include <espalier/fitting/search/space_search.h>
 #include <espalier/fitting/task/search_space.h>
 #include <espalier/fitting/task/species_components.h>
-#include <espalier/image/measures/compare.h>
+#include <espalier/image/measures/objective.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 

@@ -6,7 +6,7 @@
 #include <espalier/fitting/optimizers/search_method.h>
 #include <espalier/fitting/task/fit_record.h>
 #include <espalier/fitting/task/species_components.h>
-#include <espalier/image/measures/compare.h>
+#include <espalier/image/measures/objective.h>
 #include <espalier/models/models.h>
 
 namespace espalier {
