@@ -105,7 +105,7 @@ Measured measure(const FitResult& result, const FitCell& cell) {
                       {"pixel_accuracy", table_number(metrics.pixel_accuracy)},
                       {"truncated_distance", table_number(metrics.truncated_distance)},
                       {"evaluations", fmt::format("{}", result.evaluations)},
-                      {"stopped_by", result.stopped_by}};
+                      {"stopped_by", name_of(result.stopped_by)}};
   if (cell.unseen_seeds > 0) {
     const UnseenTrees unseen(cell.record, cell.unseen_seeds);
     append(measured.results, "unseen_", unseen.score(result.values));
@@ -125,7 +125,7 @@ std::optional<Measured> run_cell(const FitCell& cell, const fs::path& directory,
     context.on_progress(share_done(progress, cell.record.budget));
   };
   const FitResult result = fit(cell.record, directory, options);
-  if (result.stopped_by == "interrupted") return std::nullopt;
+  if (result.stopped_by == FitStop::interrupted) return std::nullopt;
   return measure(result, cell);
 }
 

@@ -284,7 +284,11 @@ FitRecord read_shared_record(const TomlSection& fits) {
   record.growth.max_stems = positive(fits, "max_stems", record.growth.max_stems);
   record.growth.max_leaves = positive(fits, "max_leaves", record.growth.max_leaves);
   record.budget.branch_rounds = read_branch_rounds(fits, record.budget);
-  record.kind = fits.text_or("kind", record.kind);
+  if (fits.has("kind")) {
+    const auto kind = value_named<KindChoice>(fits.text("kind"));
+    if (!kind) fits.fail("kind", fmt::format("{}", fmt::join(names_of<KindChoice>(), ", ")));
+    record.kind = *kind;
+  }
   if (fits.has("height")) record.height_m = positive(fits, "height", 10);
   return record;
 }

@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
@@ -25,7 +27,7 @@ constexpr std::array<RoundKind, 8> kCycle{
 nlohmann::ordered_json row_to_json(const RoundRow& row) {
   const MaskMetrics& m = row.metrics;
   return {
-      {"stage", row.stage},
+      {"stage", name_of(row.stage)},
       {"steps", row.steps},
       {"seconds", row.seconds},
       {"score", row.score},
@@ -34,10 +36,16 @@ nlohmann::ordered_json row_to_json(const RoundRow& row) {
        {m.pixel_accuracy, m.iou, m.dice, m.tolerant_iou, m.outline_iou, m.truncated_distance, m.gap_iou}}};
 }
 
-RoundRow row_from_json(const nlohmann::json& json) {
+RoundRow row_from_json(const nlohmann::json& json, const std::string& source) {
   const auto m = json.at("metrics").get<std::array<double, 7>>();
   RoundRow row;
-  row.stage = json.value("stage", "branches");  // earlier versions had no other
+  // Earlier versions had no other.
+  const std::string stage = json.value("stage", name_of(FitStage::branches));
+  const auto named = value_named<FitStage>(stage);
+  if (!named)
+    throw_input_error("{}: got stage '{}', expected one of {}", source, stage,
+                      fmt::join(names_of<FitStage>(), ", "));
+  row.stage = *named;
   row.steps = json.at("steps");
   row.seconds = json.at("seconds");
   row.score = json.at("score");
@@ -115,7 +123,8 @@ BranchRounds branch_rounds_from_json(const std::string& text, const std::string&
       state.lanes.push_back(std::move(lane));
     }
     if (json.contains("history"))
-      for (const nlohmann::json& row : json.at("history")) state.history.push_back(row_from_json(row));
+      for (const nlohmann::json& row : json.at("history"))
+        state.history.push_back(row_from_json(row, source));
     if (state.lanes.empty()) throw_input_error("{}: got no lanes, expected one or more", source);
     return state;
   } catch (const nlohmann::json::exception& error) {

@@ -19,7 +19,7 @@ double median_of(std::vector<double> values) {
 }  // namespace
 
 void Trace::add(const ScoredBatch& batch, double best_score, const MaskMetrics& best_metrics,
-                const std::string& stage) {
+                FitStage stage) {
   pending_scores_.insert(pending_scores_.end(), batch.scores.begin(), batch.scores.end());
   const bool whole_row =
       batch.improved || batch.scores.size() > 1 || pending_scores_.size() >= kRowEvaluations;
@@ -38,7 +38,7 @@ void Trace::add(const ScoredBatch& batch, double best_score, const MaskMetrics& 
 }
 
 void Trace::add_round(long evaluations, double seconds, bool improved, double best_score,
-                      const MaskMetrics& best_metrics, const std::string& stage) {
+                      const MaskMetrics& best_metrics, FitStage stage) {
   const double fitness = 1 - best_score;
   rows_.push_back({.evaluations = evaluations,
                    .seconds = seconds,
@@ -61,7 +61,7 @@ std::string trace_to_csv(const std::vector<TraceRow>& rows) {
         row.evaluations, row.seconds, row.improved ? "improvement" : "batch", row.best, row.batch_best,
         row.batch_median, row.batch_worst, row.metrics.pixel_accuracy, row.metrics.iou, row.metrics.dice,
         row.metrics.tolerant_iou, row.metrics.outline_iou, row.metrics.gap_iou,
-        row.metrics.truncated_distance, row.stage);
+        row.metrics.truncated_distance, name_of(row.stage));
   return csv;
 }
 

@@ -19,12 +19,12 @@ void fix(const FitTask& task, const std::string& name, double value, SearchChoic
 constexpr const char* kPresetsWithFronds = "palm,fan_palm";
 
 /// Whether the picture is to say anything.
-bool is_read(const FitRecord& record) { return record.kind != "any"; }
+bool is_read(const FitRecord& record) { return record.kind != KindChoice::any; }
 
 /// The trunk that a palm is held to; none where the user says how to search, or the model has no such trunks.
 std::optional<TrunkLine> held_trunk(const FitRecord& record, const FitTask& task) {
   const bool is_left_to_us = record.start == "auto" && record.search.free.empty() && record.fit_seeds == 1;
-  if (!is_left_to_us || kind_of(record, task) != kind_name(TreeKind::palm) ||
+  if (!is_left_to_us || kind_of(record, task) != KindChoice::palm ||
       task.model->table().model != FitRecord{}.model)
     return std::nullopt;
   return read_trunk_line(without_roots(task.views.front().target.mask()));
@@ -48,18 +48,18 @@ void measure(const FitRecord& record, const FitTask& task, ParameterValues& valu
 
 }  // namespace
 
-std::string kind_of(const FitRecord& record, const FitTask& task) {
-  return record.kind == "auto" ? kind_name(reading_of(task).kind) : record.kind;
+KindChoice kind_of(const FitRecord& record, const FitTask& task) {
+  return record.kind == KindChoice::automatic ? choice_of(reading_of(task).kind) : record.kind;
 }
 
 SearchChoice choice_for(const FitRecord& record, const FitTask& task) {
   SearchChoice choice = record.search;
-  const std::string kind = kind_of(record, task);
-  if (kind == "leafless") fix(task, "leaf_blos_num", 0, choice);
+  const KindChoice kind = kind_of(record, task);
+  if (kind == KindChoice::leafless) fix(task, "leaf_blos_num", 0, choice);
   if (!is_read(record) || !choice.free.empty()) return choice;
   const PictureReading reading = reading_of(task);
-  if (record.kind == "auto" && reading.trunks == 1) fix(task, "branches[0]", 1, choice);
-  choice.ranges = measured_ranges(reading, kind_by_name(kind), target_height_m(record));
+  if (record.kind == KindChoice::automatic && reading.trunks == 1) fix(task, "branches[0]", 1, choice);
+  choice.ranges = measured_ranges(reading, stated_kind(kind).value(), target_height_m(record));
   if (const auto trunk = held_trunk(record, task))
     for (const auto& [name, value] : palm_parameters(*trunk, task.views.front().metres_per_px))
       fix(task, name, value, choice);
@@ -92,6 +92,6 @@ void hold_trunk(const FitRecord& record, FitTask& task) {
   task.growth.changes = task.changes.get();
 }
 
-double search_share(const std::string& kind) { return kind == "leafless" ? 0.15 : 0.4; }
+double search_share(KindChoice kind) { return kind == KindChoice::leafless ? 0.15 : 0.4; }
 
 }  // namespace espalier

@@ -10,15 +10,15 @@
 
 namespace espalier {
 
-/// The record's kind of tree; where it is "auto", that of the first picture.
-std::string kind_of(const FitRecord& record, const FitTask& task);
+/// The record's kind of tree; where it is automatic, that of the first picture.
+KindChoice kind_of(const FitRecord& record, const FitTask& task);
 
-/// The record's choice, and what its kind adds, unless that is "any": no leaves on a leafless tree, plausible
+/// The record's choice, and what its kind adds, unless that is any: no leaves on a leafless tree, plausible
 /// ranges (fitting/starts/measured_start.h), one trunk where the picture shows one foot.
 SearchChoice choice_for(const FitRecord& record, const FitTask& task);
 
 /// The record's starts, of a palm those with fronds, thinned, as tall as the target, and, unless the kind is
-/// "any", to the measure of the picture. Presets that are named are taken as they are written where nothing
+/// any, to the measure of the picture. Presets that are named are taken as they are written where nothing
 /// is searched.
 std::vector<StartPoint> starts_for(const FitRecord& record, const FitTask& task);
 
@@ -28,6 +28,6 @@ void hold_trunk(const FitRecord& record, FitTask& task);
 
 /// Of the time, where refinement follows for as long as it lasts: less where the branches are seen and
 /// traced.
-double search_share(const std::string& kind);
+double search_share(KindChoice kind);
 
 }  // namespace espalier

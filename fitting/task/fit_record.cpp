@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <charconv>
 #include <cmath>
 
@@ -28,10 +30,12 @@ void check_view(const ViewRecord& view) {
   check_number("--views", view.view.field_of_view_deg, 1, 150, "a field of view in degrees, 1..150");
 }
 
-void check_kind(const std::string& kind) {
-  const std::vector<std::string> known = {"auto", "any", "leafy", "leafless", "palm"};
-  if (std::find(known.begin(), known.end(), kind) == known.end())
-    throw_input_error("--kind: got '{}', expected {}", kind, fmt::join(known, ", "));
+/// The word of an enumeration that a key holds.
+template <typename Enum>
+Enum read_word(const TomlSection& section, const char* key) {
+  const auto value = value_named<Enum>(section.text(key));
+  if (!value) section.fail(key, fmt::format("{}", fmt::join(names_of<Enum>(), ", ")));
+  return *value;
 }
 
 ViewRecord read_view(const TomlSection& section) {
@@ -81,7 +85,7 @@ std::optional<FitOutcome> read_outcome(const TomlSection& section) {
   const TomlSection outcome = section.section("outcome");
   const long rounds = outcome.whole_or("branch_rounds", 0);  // earlier versions have none, nor a finish
   return FitOutcome{outcome.whole("evaluations"), rounds, outcome.whole_or("finish_from", rounds),
-                    outcome.text("stopped_by")};
+                    read_word<FitStop>(outcome, "stopped_by")};
 }
 
 // Writing: in the order a person reads it.
@@ -172,7 +176,6 @@ void check_record(const FitRecord& record) {
                     record.optimizer_settings);
   parse_objective(record.objective);
   parse_search_space(record.space);
-  check_kind(record.kind);
   check_number("--space-evaluations", static_cast<double>(record.space_evaluations), 1, 1e9,
                "a whole number from 1");
   const FitBudget& budget = record.budget;
@@ -197,15 +200,17 @@ std::string record_to_toml(const FitRecord& record, const std::optional<FitOutco
   text += fmt::format("format = {}\nmodel = {}\nobjective = {}\noptimizer = {}\nseed = {}\nfit_seeds = {}\n",
                       kFormat, quote_toml(record.model), quote_toml(record.objective),
                       quote_toml(record.optimizer), static_cast<std::int64_t>(record.seed), record.fit_seeds);
-  text += fmt::format("kind = {}\ntrain_to_target = {}\n", quote_toml(record.kind), record.train_to_target);
+  text += fmt::format("kind = {}\ntrain_to_target = {}\n", quote_toml(name_of(record.kind)),
+                      record.train_to_target);
   if (record.height_m) text += fmt::format("height_m = {}\n", toml_number(*record.height_m));
   text += views_to_toml(record) + target_to_toml(record) + budget_to_toml(record) + search_to_toml(record);
   text += "\n[optimizer_settings]\n" + numbers_to_toml(record.optimizer_settings);
   text += versions_to_toml(record);
   if (outcome)
-    text += fmt::format(
-        "\n[outcome]\nevaluations = {}\nbranch_rounds = {}\nfinish_from = {}\nstopped_by = {}\n",
-        outcome->evaluations, outcome->branch_rounds, outcome->finish_from, quote_toml(outcome->stopped_by));
+    text +=
+        fmt::format("\n[outcome]\nevaluations = {}\nbranch_rounds = {}\nfinish_from = {}\nstopped_by = {}\n",
+                    outcome->evaluations, outcome->branch_rounds, outcome->finish_from,
+                    quote_toml(name_of(outcome->stopped_by)));
   return text;
 }
 
@@ -220,7 +225,7 @@ RecordedRun read_record(const std::filesystem::path& path) {
   record.optimizer = root.text("optimizer");
   record.seed = static_cast<Seed>(root.whole("seed"));
   record.fit_seeds = static_cast<int>(root.whole("fit_seeds"));
-  record.kind = root.text_or("kind", record.kind);  // earlier versions have neither
+  if (root.has("kind")) record.kind = read_word<KindChoice>(root, "kind");  // earlier versions have neither
   if (document.contains("train_to_target")) record.train_to_target = root.flag("train_to_target");
   if (document.contains("height_m")) record.height_m = root.number("height_m");
   read_views(root, record);

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include <espalier/fitting/optimizers/optimizer.h>
+#include <espalier/fitting/picture/tree_kind.h>
 #include <espalier/fitting/task/fit_stages.h>
+#include <espalier/fitting/task/fit_stop.h>
 #include <espalier/fitting/task/search_space.h>
 #include <espalier/image/reading/read_target.h>
 #include <espalier/plant/model.h>
@@ -60,9 +62,8 @@ struct FitRecord {
   std::string space;  ///< "species:2": search two coordinates of the species space first; empty: do not
   long space_evaluations = 300;  ///< most of that first search
   SearchChoice search;
-  std::string kind =
-      "any";  ///< of tree: "auto" reads it off the picture; "any" searches with and without leaves
-  bool train_to_target = false;  ///< keep the tree inside of the pictures' outlines
+  KindChoice kind = KindChoice::any;  ///< of tree
+  bool train_to_target = false;       ///< keep the tree inside of the pictures' outlines
   std::optional<double> height_m;
   std::map<std::string, std::string> versions;  ///< of the program and its libraries
 };
@@ -72,7 +73,7 @@ struct FitOutcome {
   long evaluations = 0;    ///< of the search
   long branch_rounds = 0;  ///< of the refinement
   long finish_from = 0;    ///< round at which its finish began, or would have begun
-  std::string stopped_by;
+  FitStop stopped_by = FitStop::evaluations;
 };
 
 /// Throws InputError where numbers are out of their ranges or names unknown (optimiser, objective, model).

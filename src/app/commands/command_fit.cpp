@@ -29,7 +29,8 @@ struct FitArguments {
   FitRecord record;
   std::string image, out, resume, repeat;
   std::vector<std::string> views, free, fixed, settings;
-  std::string separation = "auto", tree_side = "auto", stages = to_string(FitStages{});
+  std::string separation = "auto", tree_side = "auto", stages = to_string(FitStages{}),
+              kind = name_of(KindChoice::automatic);
   double height_m = 0;
   int threads = 0;
   bool quiet = false, all_trees = false;
@@ -127,6 +128,11 @@ FitRecord new_record(const CLI::App& command, const FitArguments& arguments) {
   record.target.side = parse_tree_side(arguments.tree_side);
   record.target.one_tree = !arguments.all_trees;
   record.stages = parse_stages(arguments.stages);
+  const auto kind = value_named<KindChoice>(arguments.kind);
+  if (!kind)
+    throw_input_error("--kind: got '{}', expected {}", arguments.kind,
+                      fmt::join(names_of<KindChoice>(), ", "));
+  record.kind = *kind;
   if (command.count("--height") > 0) record.height_m = arguments.height_m;
   set_budget(command, record.budget);
   // The bundled presets are starts for the parametric model alone.
@@ -179,8 +185,8 @@ void print_result(const FitResult& result, const FitRecord& record, const fs::pa
              result.fitness, result.metrics.iou, result.metrics.tolerant_iou, result.metrics.outline_iou,
              result.metrics.gap_iou);
   fmt::print("{} evaluations in {:.1f} s with {} over {} parameters, stopped by {}; best start: {}\n",
-             result.evaluations, result.seconds, record.optimizer, result.dimension, result.stopped_by,
-             result.best_start);
+             result.evaluations, result.seconds, record.optimizer, result.dimension,
+             name_of(result.stopped_by), result.best_start);
   if (const auto& full = result.full_size_metrics)
     fmt::print("at {} px: IoU {:.4f}, tolerant IoU {:.4f}, outline IoU {:.4f}, gap IoU {:.4f}\n",
                std::max(kFullSize_px, record.target.size_px), full->iou, full->tolerant_iou,
@@ -268,9 +274,8 @@ void add_search_options(CLI::App& command, FitArguments& arguments) {
       .add_option("--max-leaves", record.growth.max_leaves,
                   "leaves a candidate may have; for an L-system likewise")
       ->capture_default_str();
-  record.kind = "auto";
   command
-      .add_option("--kind", record.kind,
+      .add_option("--kind", arguments.kind,
                   "of tree: auto (read off the picture), any, leafy, leafless (never any leaves), palm")
       ->capture_default_str();
   command.add_flag("--train-to-target", record.train_to_target,
