@@ -12,17 +12,11 @@
 #include <espalier/fitting/task/fit_stages.h>
 #include <espalier/fitting/task/fit_stop.h>
 #include <espalier/fitting/task/search_space.h>
+#include <espalier/fitting/task/view_record.h>
 #include <espalier/image/reading/read_target.h>
 #include <espalier/plant/model.h>
-#include <espalier/render/camera.h>
 
 namespace espalier {
-
-/// A picture of the tree and where it was taken from.
-struct ViewRecord {
-  std::filesystem::path picture;
-  View view;
-};
 
 /// Of FitBudget::finish_from: the finish gets the last share of what limits the refinement, rounds or time.
 inline constexpr long kLastShare = -1;
@@ -76,7 +70,8 @@ struct FitOutcome {
   FitStop stopped_by = FitStop::evaluations;
 };
 
-/// Throws InputError where numbers are out of their ranges or names unknown (optimiser, objective, model).
+/// Throws FieldError where numbers are out of their ranges or names unknown (optimiser, objective); whether
+/// the model has the parameters is not looked at.
 void check_record(const FitRecord& record);
 
 std::string record_to_toml(const FitRecord& record, const std::optional<FitOutcome>& outcome);
@@ -86,11 +81,7 @@ struct RecordedRun {
   std::optional<FitOutcome> outcome;
 };
 
-/// Reads run.toml. Throws InputError with file, line, key, got and expected.
+/// Reads run.toml and checks it. Throws InputError with file, line, key, got and expected.
 RecordedRun read_record(const std::filesystem::path& path);
-
-/// "FILE", "FILE:azimuth,elevation" or "FILE:azimuth,elevation,field_of_view" (degrees; with the
-/// last one in perspective). Throws InputError on numbers that are none or out of range.
-ViewRecord parse_view(const std::string& text);
 
 }  // namespace espalier
