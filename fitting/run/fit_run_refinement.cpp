@@ -4,7 +4,6 @@
 #include <espalier/fitting/picture/picture_reading.h>
 #include <espalier/fitting/run/finish.h>
 #include <espalier/fitting/run/fit_run.h>
-#include <espalier/fitting/task/record_task.h>
 
 namespace espalier {
 
@@ -32,13 +31,14 @@ void FitRun::refine() {
 }
 
 void FitRun::refine_by_rounds() {
-  if (finishing()) finer_task_ = with_finer_views(record_, task_);
+  if (finishing()) finer_task_ = with_finer_views(record_, task_, sized_tasks_);
   while (!stop_requested()) {
     if (state_.branches.rounds == record_.budget.branch_rounds) {
       state_.stopped_by = FitStop::rounds;
       return;
     }
-    if (!finishing() && finish_is_due(record_, state_.branches, seconds())) begin_finish();
+    if (!finishing() && finish_is_due(record_, plan_.shares.before_finish, state_.branches, seconds()))
+      begin_finish();
     stage_ = finishing() ? FitStage::finish : FitStage::branches;
     refine_round(finishing() ? *finer_task_ : task_, record_.seed, threads_, state_.branches);
     note_round();
@@ -47,7 +47,7 @@ void FitRun::refine_by_rounds() {
 
 /// From here on lanes are scored at both sizes.
 void FitRun::begin_finish() {
-  finer_task_ = with_finer_views(record_, task_);
+  finer_task_ = with_finer_views(record_, task_, sized_tasks_);
   state_.branches.finish_from = state_.branches.rounds;
   rescore(*finer_task_, state_.branches);
   stage_ = FitStage::finish;
@@ -60,8 +60,8 @@ std::vector<Solution> FitRun::refinement_starts() {
                           scorer_.best().score};
   std::vector<Solution> starts{searched};
   if (record_.stages.tracing && state_.kind == KindChoice::leafless)
-    starts.push_back(trace_branches(make_task_at(record_, kFullSize_px, task_.model),
-                                    {.key = root_key(record_.seed)}, searched));
+    starts.push_back(
+        trace_branches(sized_tasks_.at(kFullSize_px), {.key = root_key(record_.seed)}, searched));
   return starts;
 }
 

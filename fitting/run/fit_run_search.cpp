@@ -4,7 +4,6 @@
 
 #include <espalier/fitting/run/fit_run.h>
 #include <espalier/fitting/search/fit_objective.h>
-#include <espalier/fitting/starts/picture_choice.h>
 #include <espalier/fitting/task/record_task.h>
 
 namespace espalier {
@@ -20,7 +19,7 @@ constexpr long kCertaintyShare = 10;    ///< one evaluation to so many of the se
 /// Where refinement follows for as long as time lasts.
 bool FitRun::search_time_is_over() const {
   return record_.budget.branch_rounds == kWhileTimeLasts && will_refine() && state_.branches.lanes.empty() &&
-         record_.stages.search && seconds() >= search_share(state_.kind) * record_.budget.seconds;
+         record_.stages.search && seconds() >= plan_.shares.search * record_.budget.seconds;
 }
 
 void FitRun::on_scored(const ScoredBatch& batch) {
@@ -70,8 +69,8 @@ void FitRun::search_species(const SpeciesSpace& species, std::vector<StartPoint>
   const auto prepare = [&](ParameterValues& values) {
     prepare_start(model, record_.growth, target_height_m(record_), task_.plant_seeds.front(), values);
     if (!has_leaves(model.table(), start)) take_leaves(model.table(), values);
-    keep_in_ranges(model.table(), choice_, values);
-    apply_fixed(model.table(), choice_, values);
+    keep_in_ranges(model.table(), plan_.choice, values);
+    apply_fixed(model.table(), plan_.choice, values);
   };
   const SpaceObjective objective(species, start, prepare, scorer_);
   const std::vector<double> begin = objective.box().unit(coordinates_of(species, start));
@@ -87,7 +86,7 @@ void FitRun::search(const std::vector<StartPoint>& starts, const std::vector<dou
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return scores[a] < scores[b]; });
-  const SearchSpace space = make_search_space(task_.model->table(), starts[order[0]].values, choice_,
+  const SearchSpace space = make_search_space(task_.model->table(), starts[order[0]].values, plan_.choice,
                                               target_height_m(record_) / kNominalHeightM);
   dimension_ = space.dimension();
   if (stop_requested()) return;

@@ -15,7 +15,7 @@ TargetView make_target_view(const Mask& mask, float tree_height_px, const View& 
   const auto metres_per_px = static_cast<float>(seen_height_m / tree_height_px);
   const int size_px = mask.width_px();
   return {frame_base({0, 0, 0}, view, metres_per_px, size_px, size_px, base_row_px(size_px)),
-          PreparedTarget(mask), metres_per_px};
+          PreparedTarget(mask), metres_per_px, read_picture(mask)};
 }
 
 std::vector<Mask> draw_candidate(const FitTask& task, const ParameterValues& values,

@@ -7,7 +7,7 @@
 
 #include <espalier/fitting/branches/palm_trunk.h>
 #include <espalier/fitting/run/fit.h>
-#include <espalier/fitting/starts/picture_choice.h>
+#include <espalier/fitting/starts/fit_plan.h>
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
@@ -81,10 +81,10 @@ class PalmTrunk : public testing::TestWithParam<const char*> {};
 TEST_P(PalmTrunk, StandsOnTheLineOfThePicture) {
   FitRecord record = palm_record(GetParam());
   FitTask task = make_task(record);
-  hold_trunk(record, task);
+  hold_overrides(plan_of(record, task), task);
   ASSERT_FALSE(task.overrides.empty());
   const TrunkLine line = *read_trunk_line(task.views[0].target.mask());
-  for (const StartPoint& start : starts_for(record, task)) {
+  for (const StartPoint& start : plan_of(record, task).starts) {
     Plant plant;
     task.model->generate(start.values, task.plant_seeds.front(), task.growth, plant);
     std::vector<PixelPoint> trunk;
@@ -118,7 +118,7 @@ TEST(PalmFit, IsLeftToTheUserWhoFreesOrStarts) {
   started.start = "quaking_aspen";
   for (FitRecord record : {freed, started}) {
     FitTask task = make_task(record);
-    hold_trunk(record, task);
+    hold_overrides(plan_of(record, task), task);
     EXPECT_TRUE(task.overrides.empty());
   }
 }

@@ -1,8 +1,8 @@
 // Ranges and starts to the measure of a picture.
 #include <gtest/gtest.h>
 
+#include <espalier/fitting/starts/fit_plan.h>
 #include <espalier/fitting/starts/measured_start.h>
-#include <espalier/fitting/starts/picture_choice.h>
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/models/models.h>
 
@@ -22,10 +22,10 @@ class MeasuredStart : public testing::TestWithParam<const char*> {};
 TEST_P(MeasuredStart, EveryStartIsInTheRangesAndValid) {
   FitRecord record = record_of(GetParam());
   const FitTask task = make_task(record);
-  const SearchChoice choice = choice_for(record, task);
+  const SearchChoice choice = plan_of(record, task).choice;
   ASSERT_FALSE(choice.ranges.empty());
   const ParameterTable& table = task.model->table();
-  for (const StartPoint& start : starts_for(record, task))
+  for (const StartPoint& start : plan_of(record, task).starts)
     for (const auto& [name, range] : choice.ranges) {
       const double value = start.values[table.index_of(name)];
       if (choice.fixed.contains(name)) continue;
@@ -37,9 +37,9 @@ TEST_P(MeasuredStart, EveryStartIsInTheRangesAndValid) {
 TEST_P(MeasuredStart, TheSearchStaysInTheRanges) {
   FitRecord record = record_of(GetParam());
   const FitTask task = make_task(record);
-  const SearchChoice choice = choice_for(record, task);
+  const SearchChoice choice = plan_of(record, task).choice;
   const SearchSpace space =
-      make_search_space(task.model->table(), starts_for(record, task).front().values, choice);
+      make_search_space(task.model->table(), plan_of(record, task).starts.front().values, choice);
   for (const FreeParameter& free : space.free)
     if (const auto range = choice.ranges.find(free.name); range != choice.ranges.end()) {
       EXPECT_GE(value_at(free, 0), range->second.lower) << free.name;
@@ -53,13 +53,13 @@ INSTANTIATE_TEST_SUITE_P(Targets, MeasuredStart,
 
 TEST(MeasuredStart, AnyKindIsLeftAsItIs) {
   FitRecord record = record_of("tr_fir", KindChoice::any);
-  EXPECT_TRUE(choice_for(record, make_task(record)).ranges.empty());
+  EXPECT_TRUE(plan_of(record, make_task(record)).choice.ranges.empty());
 }
 
 TEST(MeasuredStart, WhatTheUserFreesHeSearchesInFull) {
   FitRecord record = record_of("tr_fir");
   record.search.free = {"ratio", "length[1]"};
-  EXPECT_TRUE(choice_for(record, make_task(record)).ranges.empty());
+  EXPECT_TRUE(plan_of(record, make_task(record)).choice.ranges.empty());
 }
 
 TEST(MeasuredStart, AThickTrunkHasThinBranches) {
@@ -89,7 +89,7 @@ TEST(MeasuredStart, AStartTakesTheWidthOfTheCrown) {
   const FitTask task = make_task(record);
   const PictureReading reading = read_picture(task.views[0].target.mask());
   ASSERT_LT(reading.crown_width, 0.5);
-  for (const StartPoint& start : starts_for(record, task)) {
+  for (const StartPoint& start : plan_of(record, task).starts) {
     if (start.name != "quaking_aspen") continue;
     Plant plant;
     task.model->generate(start.values, 1, {record.growth, nullptr}, plant);
