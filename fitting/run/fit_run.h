@@ -85,7 +85,7 @@ class FitRun : public Observer {
   std::optional<FitTask> finer_task_;  ///< once the finish begins
   Overrides given_overrides_;          ///< of the tree that the refinement starts from
   std::size_t dimension_ = 0;
-  std::string stage_ = "starts";
+  FitStage stage_ = FitStage::starts;
   double seconds_before_ = 0;  ///< of the run up to live_since_
   Clock::time_point live_since_ = Clock::now();
   double refreshed_at_ = 0, refresh_cost_ = 0;

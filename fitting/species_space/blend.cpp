@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <espalier/core/error.h>
+#include <espalier/core/field_error.h>
 #include <espalier/fitting/species_space/blend.h>
 
 namespace espalier {
@@ -68,7 +68,7 @@ void keep_equal(const Encoding& encoding, const ParameterValues& a, const Parame
 
 ParameterValues blend(const Model& model, const Encoding& encoding, const ParameterValues& a,
                       const ParameterValues& b, double t) {
-  if (!(t >= 0 && t <= 1)) throw_input_error("--t: got {}, expected a number 0 … 1", t);
+  if (!(t >= 0 && t <= 1)) throw_field_error("t", "got {}, expected a number 0 … 1", t);
   if (t == 0 || a == b) return a;
   if (t == 1) return b;
   ParameterValues deep_a = a, deep_b = b;

@@ -29,7 +29,7 @@ class Planner {
         height_m_(target_height_m(record)) {}
 
   FitPlan plan() {
-    plan_.kind = record_.kind == "auto" ? kind_name(reading_.kind) : record_.kind;
+    plan_.kind = record_.kind == KindChoice::automatic ? choice_of(reading_.kind) : record_.kind;
     plan_.shares = shares_of(plan_.kind);
     plan_.choice = record_.search;
     trunk_ = held_trunk();
@@ -41,14 +41,14 @@ class Planner {
 
  private:
   /// Whether the picture is to say anything.
-  bool is_read() const { return record_.kind != "any"; }
+  bool is_read() const { return record_.kind != KindChoice::any; }
   bool starts_are_ours() const { return record_.start == "auto"; }
 
   /// The trunk that a palm is held to; none where the user says how to search, or the model has no such
   /// trunks.
   std::optional<TrunkLine> held_trunk() const {
     const bool is_left_to_us = starts_are_ours() && record_.search.free.empty() && record_.fit_seeds == 1;
-    if (!is_left_to_us || plan_.kind != kind_name(TreeKind::palm) || !can_hold_trunks(*task_.model))
+    if (!is_left_to_us || plan_.kind != KindChoice::palm || !can_hold_trunks(*task_.model))
       return std::nullopt;
     return read_trunk_line(without_roots(task_.views.front().target.mask()));
   }
@@ -65,10 +65,10 @@ class Planner {
   }
 
   void restrict_choice() {
-    if (plan_.kind == kind_name(TreeKind::leafless)) fix(Role::leaf_count, 0);
+    if (plan_.kind == KindChoice::leafless) fix(Role::leaf_count, 0);
     if (!is_read()) return;
-    if (record_.kind == "auto" && reading_.trunks == 1) fix(Role::trunk_count, 1);
-    plan_.choice.ranges = measured_ranges(table_, reading_, kind_by_name(plan_.kind), height_m_);
+    if (record_.kind == KindChoice::automatic && reading_.trunks == 1) fix(Role::trunk_count, 1);
+    plan_.choice.ranges = measured_ranges(table_, reading_, stated_kind(plan_.kind).value(), height_m_);
     if (!trunk_) return;
     for (const auto& [name, value] : palm_parameters(table_, *trunk_, task_.views.front().metres_per_px))
       fix(name, value);
@@ -114,13 +114,13 @@ class Planner {
 
 }  // namespace
 
-StageShares shares_of(const std::string& kind) {
+StageShares shares_of(KindChoice kind) {
   // A search of 20 % does as well as one of 40 % (experiments/closeness.md). Leafless trees gain most by what
   // follows, where their branches are traced; their share was chosen on the bundled leafless pictures, and
   // was not varied since.
   constexpr double kSearch = 0.4, kSearchOfLeafless = 0.15;
   constexpr double kBeforeFinish = 0.6;  // chosen in experiments/closeness.md
-  return {kind == kind_name(TreeKind::leafless) ? kSearchOfLeafless : kSearch, kBeforeFinish};
+  return {kind == KindChoice::leafless ? kSearchOfLeafless : kSearch, kBeforeFinish};
 }
 
 FitPlan plan_of(const FitRecord& record, const FitTask& task) { return Planner(record, task).plan(); }

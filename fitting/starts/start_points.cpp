@@ -3,7 +3,7 @@
 #include <optional>
 #include <sstream>
 
-#include <espalier/core/error.h>
+#include <espalier/core/field_error.h>
 #include <espalier/fitting/starts/start_points.h>
 #include <espalier/fitting/starts/thinning.h>
 #include <espalier/models/preset.h>
@@ -50,11 +50,11 @@ std::vector<StartPoint> presets_as_written(const ParameterTable& table, const st
   std::vector<StartPoint> points;
   const bool automatic = start == "auto";
   for (const std::string& name : automatic ? bundled_presets() : split_at_commas(start)) {
-    Preset preset = load_preset(name);
+    Preset preset = in_field("start", [&] { return load_preset(name); });
     if (preset.model == table.model)
       points.push_back({preset.name, std::move(preset.values), std::move(preset.overrides)});
     else if (!automatic)
-      throw_input_error("--start: got '{}' of model {}, expected a preset of {}", name, preset.model,
+      throw_field_error("start", "got '{}' of model {}, expected a preset of {}", name, preset.model,
                         table.model);
   }
   if (points.empty()) points.push_back({"defaults", table.defaults()});

@@ -81,9 +81,13 @@ std::string describe_valid_values(const ParameterInfo& row) {
   return fmt::format("a {} {}..{}", is_whole(row) ? "whole number" : "number", row.lower, row.upper);
 }
 
-void check_value(const ParameterInfo& row, double value, std::string_view where) {
+bool is_valid_value(const ParameterInfo& row, double value) {
   const bool in_bounds = std::isfinite(value) && value >= row.lower && value <= row.upper;
-  if (in_bounds && (!is_whole(row) || value == std::floor(value))) return;
+  return in_bounds && (!is_whole(row) || value == std::floor(value));
+}
+
+void check_value(const ParameterInfo& row, double value, std::string_view where) {
+  if (is_valid_value(row, value)) return;
   throw_input_error("{}: key '{}': got {}, expected {}", where, row.full_name(), value,
                     describe_valid_values(row));
 }

@@ -72,7 +72,7 @@ TEST(TrunkLine, WhatHasNoBareTrunkHasNone) {
 FitRecord palm_record(const std::string& picture) {
   FitRecord record;
   record.views = {{fs::path(ESPALIER_SOURCE_DIR) / "targets" / (picture + ".png"), {}}};
-  record.kind = "auto";
+  record.kind = KindChoice::automatic;
   record.budget = {30, 0, 0, 2};
   return record;
 }

@@ -13,7 +13,7 @@
 namespace espalier {
 namespace {
 
-FitRecord record_of(const std::string& target, const std::string& kind = "auto") {
+FitRecord record_of(const std::string& target, KindChoice kind = KindChoice::automatic) {
   FitRecord record;
   record.views = {{std::filesystem::path(ESPALIER_SOURCE_DIR) / "targets" / (target + ".png"), {}}};
   record.target.size_px = 64;
@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(Targets, MeasuredStart,
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(MeasuredStart, AnyKindIsLeftAsItIs) {
-  FitRecord record = record_of("tr_fir", "any");
+  FitRecord record = record_of("tr_fir", KindChoice::any);
   EXPECT_TRUE(plan_of(record, make_task(record)).choice.ranges.empty());
 }
 
