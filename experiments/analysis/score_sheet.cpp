@@ -40,7 +40,7 @@ struct Scores {
     for (const MaskMetrics& run : runs) sum += run.values[metric];
     return sum / static_cast<double>(runs.size());
   }
-  /// Of the IoU: the largest less the smallest.
+  /// The largest IoU less the smallest.
   double spread() const {
     const auto [least, most] =
         std::minmax_element(runs.begin(), runs.end(),
@@ -49,7 +49,7 @@ struct Scores {
   }
 };
 
-/// By target, then by entry.
+/// The scores by target, then by entry.
 struct AllScores {
   std::vector<std::string> targets;
   std::vector<Entry> entries;

@@ -104,7 +104,7 @@ Measured measure(const FitResult& result, const FitCell& cell) {
     measured.results.emplace_back(kMetrics[row].name, std::isnan(value) ? "" : table_number(value));
   }
   measured.results.emplace_back("evaluations", fmt::format("{}", result.evaluations));
-  measured.results.emplace_back("stopped_by", result.stopped_by);
+  measured.results.emplace_back("stopped_by", name_of(result.stopped_by));
   if (cell.unseen_seeds > 0) {
     const UnseenTrees unseen(cell.record, cell.unseen_seeds);
     append(measured.results, "unseen_", unseen.score(result.values));
@@ -124,7 +124,7 @@ std::optional<Measured> run_cell(const FitCell& cell, const fs::path& directory,
     context.on_progress(share_done(progress, cell.record.budget));
   };
   const FitResult result = fit(cell.record, directory, options);
-  if (result.stopped_by == "interrupted") return std::nullopt;
+  if (result.stopped_by == FitStop::interrupted) return std::nullopt;
   return measure(result, cell);
 }
 

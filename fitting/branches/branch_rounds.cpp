@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
@@ -24,8 +26,8 @@ constexpr std::array<RoundKind, 8> kCycle{
     {{0, 100}, {1, 2000}, {1, 2000}, {2, 2000}, {1, 2000}, {2, 2000}, {2, 2000}, {3, 2000}}};
 
 nlohmann::ordered_json row_to_json(const RoundRow& row) {
-  return {{"stage", row.stage}, {"steps", row.steps},         {"seconds", row.seconds},
-          {"score", row.score}, {"own_score", row.own_score}, {"metrics", row.metrics}};
+  return {{"stage", name_of(row.stage)}, {"steps", row.steps},         {"seconds", row.seconds},
+          {"score", row.score},          {"own_score", row.own_score}, {"metrics", row.metrics}};
 }
 
 /// Earlier versions wrote an array without names, in this order.
@@ -37,10 +39,16 @@ MaskMetrics metrics_from_array(const nlohmann::json& json) {
   return named.get<MaskMetrics>();
 }
 
-RoundRow row_from_json(const nlohmann::json& json) {
+RoundRow row_from_json(const nlohmann::json& json, const std::string& source) {
   const nlohmann::json& metrics = json.at("metrics");
   RoundRow row;
-  row.stage = json.value("stage", "branches");  // earlier versions had no other
+  // Earlier versions had no other.
+  const std::string stage = json.value("stage", name_of(FitStage::branches));
+  const auto named = value_named<FitStage>(stage);
+  if (!named)
+    throw_input_error("{}: got stage '{}', expected one of {}", source, stage,
+                      fmt::join(names_of<FitStage>(), ", "));
+  row.stage = *named;
   row.steps = json.at("steps");
   row.seconds = json.at("seconds");
   row.score = json.at("score");
@@ -118,7 +126,8 @@ BranchRounds branch_rounds_from_json(const std::string& text, const std::string&
       state.lanes.push_back(std::move(lane));
     }
     if (json.contains("history"))
-      for (const nlohmann::json& row : json.at("history")) state.history.push_back(row_from_json(row));
+      for (const nlohmann::json& row : json.at("history"))
+        state.history.push_back(row_from_json(row, source));
     if (state.lanes.empty()) throw_input_error("{}: got no lanes, expected one or more", source);
     return state;
   } catch (const nlohmann::json::exception& error) {

@@ -53,7 +53,8 @@ std::string best_to_toml(const RunState& state) {
                          fmt::format("fitted to {} with {}, seed {}: fitness {:.4f}",
                                      state.record.views.front().picture.filename().string(),
                                      state.record.optimizer, state.record.seed, 1 - state.best.score),
-                         state.record.model, state.best.values, best_overrides(state), grown_into(state)});
+                         state.record.model, state.best.values, best_overrides(state), grown_into(state)},
+                        state.task.model->table());
 }
 
 std::string archived_to_toml(const RunState& state, std::size_t index) {
@@ -67,7 +68,7 @@ std::string archived_to_toml(const RunState& state, std::size_t index) {
   preset.values = solution.values;
   preset.overrides = state.task.overrides;
   preset.grown_into = grown_into(state);
-  return preset_to_toml(preset);
+  return preset_to_toml(preset, state.task.model->table());
 }
 
 /// The outlines that trained trees are grown into.
@@ -169,7 +170,7 @@ void check_new_directory(const fs::path& directory) {
                       error ? error.message() : "a file");
   if (fs::directory_iterator(directory, error) != fs::directory_iterator())
     throw_input_error(
-        "{}: got a directory with files in it, expected a new one (--resume goes on with a run)",
+        "{}: got a directory with files in it, expected a new one, or to resume the run in it",
         directory.string());
   if (error)
     throw_input_error("{}: got '{}', expected a directory that can be read", directory.string(),
@@ -217,7 +218,7 @@ std::string run_summary(const RunState& state) {
   summary["evaluations"] = state.evaluations;
   summary["branch_rounds"] = state.branches.rounds;
   summary["branch_steps"] = state.branches.steps;
-  summary["kind"] = state.kind;
+  summary["kind"] = name_of(state.kind);
   summary["trained_to_target"] = state.task.growth.train;
   if (state.metrics_untrained) summary["without_training"] = *state.metrics_untrained;
   if (state.full_size) {
@@ -228,7 +229,7 @@ std::string run_summary(const RunState& state) {
   summary["seconds"] = state.seconds;
   summary["evaluations_per_second"] =
       state.seconds > 0 ? static_cast<double>(state.evaluations) / state.seconds : 0;
-  summary["stopped_by"] = state.stopped_by.value_or("still running, or killed");
+  summary["stopped_by"] = state.stopped_by ? name_of(*state.stopped_by) : "still running, or killed";
   summary["optimizer"] = state.record.optimizer;
   summary["objective"] = state.record.objective;
   summary["model"] = state.record.model;

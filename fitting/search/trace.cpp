@@ -27,7 +27,7 @@ std::string metric_cells(const MaskMetrics& metrics) {
 }  // namespace
 
 void Trace::add(const ScoredBatch& batch, double best_score, const MaskMetrics& best_metrics,
-                const std::string& stage) {
+                FitStage stage) {
   pending_scores_.insert(pending_scores_.end(), batch.scores.begin(), batch.scores.end());
   const bool whole_row =
       batch.improved || batch.scores.size() > 1 || pending_scores_.size() >= kRowEvaluations;
@@ -46,7 +46,7 @@ void Trace::add(const ScoredBatch& batch, double best_score, const MaskMetrics& 
 }
 
 void Trace::add_round(long evaluations, double seconds, bool improved, double best_score,
-                      const MaskMetrics& best_metrics, const std::string& stage) {
+                      const MaskMetrics& best_metrics, FitStage stage) {
   const double fitness = 1 - best_score;
   rows_.push_back({.evaluations = evaluations,
                    .seconds = seconds,
@@ -66,7 +66,7 @@ std::string trace_to_csv(const std::vector<TraceRow>& rows) {
   for (const TraceRow& row : rows)
     csv += fmt::format("{},{:.3f},{},{:.6f},{:.6f},{:.6f},{:.6f},{}{}\n", row.evaluations, row.seconds,
                        row.improved ? "improvement" : "batch", row.best, row.batch_best, row.batch_median,
-                       row.batch_worst, metric_cells(row.metrics), row.stage);
+                       row.batch_worst, metric_cells(row.metrics), name_of(row.stage));
   return csv;
 }
 

@@ -6,7 +6,6 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include <espalier/core/vec3.h>
@@ -20,12 +19,12 @@ struct LeafOutline {
 };
 
 /// Of the leaf shapes 1, 2, …
-inline constexpr std::array<std::string_view, 10> kLeafShapes{
-    "ovate",     "linear",      "cordate",  "maple",     "palmate",
-    "spiky_oak", "rounded_oak", "elliptic", "rectangle", "triangle"};
+inline constexpr std::array<const char*, 10> kLeafShapes{"ovate",     "linear",    "cordate",     "maple",
+                                                         "palmate",   "spiky_oak", "rounded_oak", "elliptic",
+                                                         "rectangle", "triangle"};
 
 /// Of the blossoms 1, 2, …
-inline constexpr std::array<std::string_view, 3> kBlossomShapes{"cherry", "orange", "magnolia"};
+inline constexpr std::array<const char*, 3> kBlossomShapes{"cherry", "orange", "magnolia"};
 
 /// Leaf shape 1 to kLeafShapes.size(); 0 is elliptic. Throws InternalError for any other. The reference stays
 /// valid.
