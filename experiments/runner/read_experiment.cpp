@@ -17,7 +17,7 @@
 #include <espalier/fitting/task/option_values.h>
 #include <espalier/fitting/task/search_space.h>
 #include <espalier/fitting/task/species_components.h>
-#include <espalier/image/measures/compare.h>
+#include <espalier/image/measures/objective.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 

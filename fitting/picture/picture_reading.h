@@ -1,5 +1,5 @@
-// Stage (a): what a mask says of its tree before anything is grown. All measures but one are relative to
-// the tree's height, so that they hold at any resolution.
+// Stage 1 of a fit (docs/branches.md): what a mask says of its tree before anything is grown. All measures
+// but one are relative to the tree's height, so that they hold at any resolution.
 #pragma once
 #include <espalier/fitting/picture/tree_kind.h>
 #include <espalier/image/masks/mask.h>

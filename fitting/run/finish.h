@@ -1,6 +1,6 @@
-// Stage (f): the last rounds of the refinement look at the pictures at twice the size of the search as well.
-// Twigs and gaps thinner than a pixel of the small masks meet pixel centres there by chance, and a refinement
-// fits the chance too; where both sizes have to be right, what is right is the tree.
+// Stage 6 of a fit: the last rounds of refinement look at the pictures at twice the size of the search as
+// well. Twigs and gaps thinner than a pixel of the small masks meet pixel centres there by chance, and a
+// refinement fits the chance too; where both sizes have to be right, what is right is the tree.
 #pragma once
 #include <espalier/fitting/branches/branch_rounds.h>
 #include <espalier/fitting/task/fit_record.h>

@@ -26,6 +26,9 @@ inline constexpr long kUnlimited = 1'000'000'000;
 std::optional<BranchRounds> reached_rounds(const FitRecord& record, const std::filesystem::path& directory,
                                            const FitOptions& options);
 
+/// The one that the caller brought along, or the record's by name.
+const Optimizer& optimizer_of(const FitRecord& record, const FitOptions& options);
+
 /// One run: its state, its clock, and when it stops.
 class FitRun : public Observer {
  public:

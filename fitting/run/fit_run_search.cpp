@@ -53,7 +53,7 @@ std::vector<double> FitRun::score_starts(const std::vector<StartPoint>& starts) 
 
 MinimizeResult FitRun::minimize(const Objective& objective, long evaluations,
                                 std::span<const double> points) {
-  return optimizer_by_name(record_.optimizer)
+  return optimizer_of(record_, options_)
       .minimize(objective, record_.optimizer_settings, {evaluations}, points, record_.seed, *this);
 }
 

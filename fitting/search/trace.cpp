@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include <espalier/fitting/search/trace.h>
 
@@ -14,6 +15,13 @@ double median_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// A cell and a comma a measure; the cell of an unknown one is empty.
+std::string metric_cells(const MaskMetrics& metrics) {
+  std::string cells;
+  for (const double value : metrics.values) cells += std::isnan(value) ? "," : fmt::format("{:.6f},", value);
+  return cells;
 }
 
 }  // namespace
@@ -52,16 +60,13 @@ void Trace::add_round(long evaluations, double seconds, bool improved, double be
 }
 
 std::string trace_to_csv(const std::vector<TraceRow>& rows) {
-  std::string csv =
-      "evaluations,seconds,event,best,batch_best,batch_median,batch_worst,"
-      "pixel_accuracy,iou,dice,tolerant_iou,outline_iou,gap_iou,truncated_distance,stage\n";
+  std::string csv = "evaluations,seconds,event,best,batch_best,batch_median,batch_worst,";
+  for (const Metric& metric : kMetrics) csv += fmt::format("{},", metric.name);
+  csv += "stage\n";
   for (const TraceRow& row : rows)
-    csv += fmt::format(
-        "{},{:.3f},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{}\n",
-        row.evaluations, row.seconds, row.improved ? "improvement" : "batch", row.best, row.batch_best,
-        row.batch_median, row.batch_worst, row.metrics.pixel_accuracy, row.metrics.iou, row.metrics.dice,
-        row.metrics.tolerant_iou, row.metrics.outline_iou, row.metrics.gap_iou,
-        row.metrics.truncated_distance, name_of(row.stage));
+    csv += fmt::format("{},{:.3f},{},{:.6f},{:.6f},{:.6f},{:.6f},{}{}\n", row.evaluations, row.seconds,
+                       row.improved ? "improvement" : "batch", row.best, row.batch_best, row.batch_median,
+                       row.batch_worst, metric_cells(row.metrics), name_of(row.stage));
   return csv;
 }
 

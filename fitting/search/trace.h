@@ -8,7 +8,7 @@
 #include <espalier/charts/line_chart.h>
 #include <espalier/fitting/search/logged_scorer.h>
 #include <espalier/fitting/task/fit_stages.h>
-#include <espalier/image/measures/compare.h>
+#include <espalier/image/measures/metric_table.h>
 
 namespace espalier {
 

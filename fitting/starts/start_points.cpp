@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include <espalier/core/field_error.h>
@@ -10,11 +11,6 @@
 namespace espalier {
 
 namespace {
-
-void set_if_known(const ParameterTable& table, const std::string& name, double value,
-                  ParameterValues& values) {
-  if (const auto row = table.find(name)) values[*row] = value;
-}
 
 std::vector<std::string> split_at_commas(const std::string& text) {
   std::vector<std::string> parts;
@@ -39,6 +35,12 @@ void scale_to_height(const Model& model, const GrowthBudget& budget, double heig
     const double grown_m = grown_height_m(model, {budget, nullptr}, values, seed);
     if (grown_m > 0) scale_plant(model.table(), height_m / grown_m, values);
   }
+}
+
+/// The count of leaves, where it may be none.
+std::optional<std::size_t> leaves_row(const ParameterTable& table) {
+  const auto row = table.find(Role::leaf_count);
+  return row && table.rows[*row].lower <= 0 ? row : std::nullopt;
 }
 
 }  // namespace
@@ -67,19 +69,19 @@ void scale_plant(const ParameterTable& table, double factor, ParameterValues& va
 
 void prepare_start(const Model& model, const GrowthBudget& budget, double height_m, Seed plant_seed,
                    ParameterValues& values) {
-  set_if_known(model.table(), "g_scale_v", 0, values);
-  set_if_known(model.table(), "relaxed_counts", 1, values);
+  set_role(model.table(), {Role::tree_scale_variation}, 0, values);
+  set_role(model.table(), {Role::relaxed_counts}, 1, values);
   thin_until_grown(model, budget, plant_seed, values);
   scale_to_height(model, budget, height_m, plant_seed, values);
 }
 
 bool has_leaves(const ParameterTable& table, const ParameterValues& values) {
-  const auto row = table.find("leaf_blos_num");
+  const auto row = leaves_row(table);
   return row && values[*row] != 0;
 }
 
 void take_leaves(const ParameterTable& table, ParameterValues& values) {
-  set_if_known(table, "leaf_blos_num", 0, values);
+  if (const auto row = leaves_row(table)) values[*row] = 0;
 }
 
 std::vector<StartPoint> make_start_points(const Model& model, const std::string& start,

@@ -7,7 +7,7 @@
 #include <espalier/fitting/optimizers/search_method.h>
 #include <espalier/fitting/task/fit_options.h>
 #include <espalier/fitting/task/species_components.h>
-#include <espalier/image/measures/compare.h>
+#include <espalier/image/measures/objective.h>
 #include <espalier/models/models.h>
 
 namespace espalier {
@@ -63,6 +63,10 @@ std::string help_of_optimizers() {
   return fmt::format("method of the search: {}", fmt::join(methods, ", "));
 }
 
+std::string help_of_objectives() {
+  return fmt::format("weighted sum of measures to minimise: {}", fmt::join(objective_names(), ", "));
+}
+
 std::vector<FitOption> options_of_all() {
   return {
       {.field = "model",
@@ -76,7 +80,7 @@ std::vector<FitOption> options_of_all() {
        .member = [](FitRecord& record) -> std::string& { return record.objective; },
        .expected = "a weighted sum of measures",
        .check = check_objective,
-       .help = "weighted sum of measures to minimise",
+       .help = help_of_objectives(),
        .experiment_list = "objectives"},
       {.field = "optimizer",
        .key = "optimizer",

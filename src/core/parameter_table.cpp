@@ -46,6 +46,12 @@ std::optional<std::size_t> ParameterTable::find(std::string_view full_name) cons
   return std::nullopt;
 }
 
+std::optional<std::size_t> ParameterTable::find(Role role, int level) const {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].role == RoleOfLevel{role, level}) return i;
+  return std::nullopt;
+}
+
 std::size_t ParameterTable::index_of(std::string_view full_name) const {
   if (const auto index = find(full_name)) return *index;
   std::vector<std::string> known;
@@ -58,6 +64,17 @@ ParameterValues ParameterTable::defaults() const {
   ParameterValues values;
   for (const ParameterInfo& row : rows) values.push_back(row.default_value);
   return values;
+}
+
+bool set_role(const ParameterTable& table, RoleOfLevel role, double value, ParameterValues& values) {
+  const auto row = table.find(role.role, role.level);
+  if (row) values[*row] = std::clamp(value, table.rows[*row].lower, table.rows[*row].upper);
+  return row.has_value();
+}
+
+double in_own_units(const ParameterTable& table, double length_m, const ParameterValues& values) {
+  const auto unit = table.find(Role::length_unit);
+  return unit ? length_m / values[*unit] : length_m;
 }
 
 std::string describe_valid_values(const ParameterInfo& row) {

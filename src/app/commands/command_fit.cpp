@@ -140,15 +140,15 @@ fs::path unused_directory(const FitRecord& record) {
 
 void print_result(const FitResult& result, const FitRecord& record, const fs::path& directory) {
   fmt::print("fitness {:.4f}, IoU {:.4f}, tolerant IoU {:.4f}, outline IoU {:.4f}, gap IoU {:.4f}\n",
-             result.fitness, result.metrics.iou, result.metrics.tolerant_iou, result.metrics.outline_iou,
-             result.metrics.gap_iou);
+             result.fitness, result.metrics["iou"], result.metrics["tolerant_iou"],
+             result.metrics["outline_iou"], result.metrics["gap_iou"]);
   fmt::print("{} evaluations in {:.1f} s with {} over {} parameters, stopped by {}; best start: {}\n",
              result.evaluations, result.seconds, record.optimizer, result.dimension,
              name_of(result.stopped_by), result.best_start);
   if (const auto& full = result.full_size_metrics)
     fmt::print("at {} px: IoU {:.4f}, tolerant IoU {:.4f}, outline IoU {:.4f}, gap IoU {:.4f}\n",
-               std::max(kFullSize_px, record.target.size_px), full->iou, full->tolerant_iou,
-               full->outline_iou, full->gap_iou);
+               std::max(kFullSize_px, record.target.size_px), (*full)["iou"], (*full)["tolerant_iou"],
+               (*full)["outline_iou"], (*full)["gap_iou"]);
   if (result.failures.count > 0)
     fmt::print(stderr, "{} candidates failed and counted as the worst; the first: {}\n",
                result.failures.count, result.failures.first);

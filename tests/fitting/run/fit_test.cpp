@@ -84,7 +84,7 @@ TEST(Fit, SummarySaysWhatWasDone) {
   const auto summary = nlohmann::json::parse(read_text_file(run / "summary.json"));
   EXPECT_EQ(summary["evaluations"], 40);
   EXPECT_EQ(summary["stopped_by"], "evaluations");
-  EXPECT_EQ(summary["iou"], result.metrics.iou);
+  EXPECT_EQ(summary["iou"], result.metrics["iou"]);
   EXPECT_LE(summary["embree_disagreement_pixels"], 2);
   EXPECT_EQ(summary["optimizer"], "cma_es");
   EXPECT_EQ(summary["seed"], 1);
@@ -100,7 +100,7 @@ TEST(Fit, BestIsAPresetThatGrowsTheBestMask) {
   const Preset best = load_preset((run / "best.toml").string());
   EXPECT_EQ(best.values, result.values);
   const TargetPicture drawn = read_mask(run / "best.png"), target = read_mask(run / "target.png");
-  EXPECT_DOUBLE_EQ(iou(drawn.mask, target.mask), result.metrics.iou);
+  EXPECT_DOUBLE_EQ(iou(drawn.mask, target.mask), result.metrics["iou"]);
 }
 
 TEST(Fit, IsNeverWorseThanItsBestStart) {

@@ -82,8 +82,8 @@ TEST(StagedFit, ThePresetItLeavesGrowsTheSamePicture) {
     const Regrown full = regrown(run, kFullSize_px);
     const MaskMetrics metrics = compare_masks(full.mask, full.target);
     const auto reported = summary_of(run)["full_size"];
-    EXPECT_NEAR(reported["iou"], metrics.iou, 1e-6) << "trained: " << train;
-    EXPECT_NEAR(reported["outline_iou"], metrics.outline_iou, 1e-6) << "trained: " << train;
+    EXPECT_NEAR(reported["iou"], metrics["iou"], 1e-6) << "trained: " << train;
+    EXPECT_NEAR(reported["outline_iou"], metrics["outline_iou"], 1e-6) << "trained: " << train;
   }
 }
 

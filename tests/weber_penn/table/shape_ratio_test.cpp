@@ -1,55 +1,13 @@
-// Laws of taper, flare and the crown shapes, against the formulas of the papers.
+// Laws of the crown shapes and of the pruning envelope, against the formulas of the papers.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include <espalier/core/random.h>
-#include <espalier/weber_penn/scalar/stem.h>
 #include <espalier/weber_penn/table/shape_ratio.h>
 
 namespace espalier {
 namespace {
-
-GrowingStem stem_of(int level) {
-  GrowingStem stem;
-  stem.level = level;
-  stem.length_m = 4;
-  stem.radius_m = 0.2f;
-  return stem;
-}
-
-float radius_m(float taper, float z, float flare = 0, int level = 1) {
-  WeberPennParameters parameters;
-  parameters.taper = {taper, taper, taper, taper};
-  parameters.flare = flare;
-  return stem_radius_m(stem_of(level), z, parameters);
-}
-
-TEST(Taper, ZeroIsACylinder) { EXPECT_FLOAT_EQ(radius_m(0, 0.9f), 0.2f); }
-
-TEST(Taper, BelowOneEndsAtThatFractionLess) { EXPECT_FLOAT_EQ(radius_m(0.6f, 1), 0.2f * 0.4f); }
-
-TEST(Taper, OneIsACone) {
-  EXPECT_FLOAT_EQ(radius_m(1, 0.5f), 0.1f);
-  EXPECT_NEAR(radius_m(1, 1), 0, 1e-6);
-}
-
-TEST(Taper, TwoEndsInAHemisphere) {
-  EXPECT_FLOAT_EQ(radius_m(2, 0.5f), 0.2f);
-  const float to_tip_m = 0.05f;  // a sphere of radius 0.2 centred 0.2 before the tip
-  EXPECT_NEAR(radius_m(2, 1 - to_tip_m / 4), std::sqrt(0.04 - 0.15 * 0.15), 1e-4);
-}
-
-TEST(Taper, ThreeIsARowOfSpheres) {
-  EXPECT_NEAR(radius_m(3, 0.5f), 0, 1e-3);            // 2 m from the tip: five diameters, where spheres touch
-  EXPECT_NEAR(radius_m(3, 1 - 0.2f / 4), 0.2, 1e-3);  // the middle of the last sphere
-}
-
-TEST(Flare, WidensTheFootOfTrunksOnly) {
-  EXPECT_NEAR(radius_m(0, 0, 0.6f, 0), 0.2 * (1 + 0.6 * 0.99), 1e-5);
-  EXPECT_NEAR(radius_m(0, 0.125f, 0.6f, 0), 0.2, 1e-5);
-  EXPECT_NEAR(radius_m(0, 0, 0.6f, 1), 0.2, 1e-6);
-}
 
 TEST(ShapeRatio, FollowsTheTableOfThePaper) {
   const WeberPennParameters p;
@@ -97,6 +55,19 @@ TEST(Envelope, HoldsTheAxisAndNotWhatIsWiderThanItsWidth) {
   EXPECT_TRUE(inside_envelope({0, 0, 5}, 10, p));
   EXPECT_TRUE(inside_envelope({4.9f, 0, 5}, 10, p));
   EXPECT_FALSE(inside_envelope({5.1f, 0, 5}, 10, p));
+}
+
+TEST(MixedCrown, LiesBetweenItsTwoShapes) {
+  WeberPennParameters crown;
+  crown.shape = 0;
+  crown.shape_2 = 3;
+  crown.shape_mix = 0.25f;
+  for (const float ratio : {0.f, 0.3f, 0.8f, 1.f}) {
+    const float conical = shape_ratio(0, ratio, crown), cylindrical = shape_ratio(3, ratio, crown);
+    EXPECT_FLOAT_EQ(crown_shape_ratio(ratio, crown), 0.75f * conical + 0.25f * cylindrical);
+  }
+  crown.shape_mix = 0;
+  EXPECT_EQ(crown_shape_ratio(0.3f, crown), shape_ratio(0, 0.3f, crown));
 }
 
 }  // namespace

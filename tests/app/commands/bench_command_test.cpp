@@ -2,12 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-
-#include <espalier/app/bench/bench_scaling.h>
 
 #include "support/run_espalier.h"
 
@@ -52,14 +49,6 @@ TEST(BenchCommand, ComparesWithAnOlderReport) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("new / old"));
   EXPECT_THAT(run.out, HasSubstr("geometric mean"));
-}
-
-TEST(BenchScaling, ExponentIsThatOfThePowerLaw) {
-  ScalingSeries series{"leaves", {}};
-  for (const double leaves : {10.0, 100.0, 3000.0})
-    series.points.emplace_back(leaves, 2e-6 * std::pow(leaves, 0.7));
-  EXPECT_NEAR(scaling_exponent(series), 0.7, 1e-9);
-  EXPECT_EQ(scaling_exponent({"threads", {{1, 0.5}}}), 0);
 }
 
 TEST(BenchCommand, RefusesBadInputInOneLine) {

@@ -1,27 +1,13 @@
-// Crowns of two shapes, and the same tree with more levels of branching.
+// The same tree with more levels of branching.
 #include <gtest/gtest.h>
 
 #include <espalier/models/preset.h>
 #include <espalier/weber_penn/deepen.h>
 #include <espalier/weber_penn/estimate.h>
 #include <espalier/weber_penn/model.h>
-#include <espalier/weber_penn/table/shape_ratio.h>
 
 namespace espalier {
 namespace {
-
-TEST(MixedCrown, LiesBetweenItsTwoShapes) {
-  WeberPennParameters crown;
-  crown.shape = 0;
-  crown.shape_2 = 3;
-  crown.shape_mix = 0.25f;
-  for (const float ratio : {0.f, 0.3f, 0.8f, 1.f}) {
-    const float conical = shape_ratio(0, ratio, crown), cylindrical = shape_ratio(3, ratio, crown);
-    EXPECT_FLOAT_EQ(crown_shape_ratio(ratio, crown), 0.75f * conical + 0.25f * cylindrical);
-  }
-  crown.shape_mix = 0;
-  EXPECT_EQ(crown_shape_ratio(0.3f, crown), shape_ratio(0, 0.3f, crown));
-}
 
 TEST(Deepened, ExpectsAsManyLeavesAsBefore) {
   for (const char* name : {"palm", "fan_palm", "small_pine", "bamboo", "acer", "quaking_aspen"}) {
