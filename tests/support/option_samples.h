@@ -54,10 +54,9 @@ inline OptionSample sample_of_text(const FitOption& option) {
 }
 
 inline OptionSample sample_of(const FitOption& option) {
-  const bool flag = get_value(option, FitRecord{}) == OptionValue(true);
   switch (type_of(option)) {
     case ValueType::flag:
-      return {!flag, "'maybe'", {}};
+      return {!std::get<bool>(get_value(option, FitRecord{})), "'maybe'", {}};
     case ValueType::whole:
     case ValueType::number:
       return sample_of_number(option);
