@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <espalier/app/commands/commands.h>
+#include <espalier/app/options/fit_option_docs.h>
 #include <espalier/image/measures/metric_table.h>
 
 namespace espalier {
@@ -33,6 +34,7 @@ struct Topic {
 };
 
 constexpr Topic kTopics[] = {
+    {"fit", fit_options_as_markdown},
     {"measures", measures_as_markdown},
 };
 

@@ -153,6 +153,14 @@ TEST(FitCommand, EachOptionIsToldByItsNameWhatItCannotTake) {
   EXPECT_FALSE(fs::exists(run));
 }
 
+TEST(FitCommand, EachOptionIsInItsHelp) {
+  const std::string help = run_espalier("fit --help").out;
+  for (const FitOption& option : fit_options()) {
+    if (option.option.empty()) continue;
+    EXPECT_THAT(help, HasSubstr(fmt::format("  --{} ", option.option)));
+  }
+}
+
 TEST(FitCommand, ChoicesAreFixedByTheirNames) {
   const fs::path run = fresh_folder("choice") / "run";
   ASSERT_EQ(run_espalier(small_fit(run, 5, "--fix leaf_shape=ovate")).exit_code, 0);

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include <espalier/app/parameter_docs.h>
-#include <espalier/fitting/task/fit_options.h>
 #include <espalier/models/models.h>
 
 #include "support/run_espalier.h"
@@ -36,28 +35,6 @@ TEST(ParamsCommand, TextNamesEveryParameterWithItsHelp) {
   for (const ParameterInfo& row : model_by_name("weber_penn").table().rows) {
     EXPECT_THAT(run.out, testing::HasSubstr(row.name));
     EXPECT_THAT(run.out, testing::HasSubstr(row.help));
-  }
-}
-
-TEST(ParamsCommand, TheDocumentationOfFitsIsWhatItPrints) {
-  const ProgramRun run = run_espalier("params --fit --format markdown");
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(run.out, read_text_file(ESPALIER_SOURCE_DIR "/docs/fit_options.md"))
-      << "make it anew: ./espalier params --fit --format markdown > docs/fit_options.md";
-}
-
-TEST(ParamsCommand, EachOptionOfAFitIsInItsHelpAndInAllFormats) {
-  const std::string help = run_espalier("fit --help").out, text = run_espalier("params --fit").out;
-  const auto json = nlohmann::json::parse(run_espalier("params --fit --format json").out);
-  ASSERT_EQ(json["options"].size(), fit_options().size());
-  for (std::size_t i = 0; i < fit_options().size(); ++i) {
-    const FitOption& option = fit_options()[i];
-    EXPECT_EQ(json["options"][i]["key"], option.key);
-    if (option.option.empty()) continue;
-    const std::string name = "--" + std::string(option.option);
-    EXPECT_EQ(json["options"][i]["option"], name);
-    EXPECT_THAT(help, testing::HasSubstr("  " + name + " ")) << name;
-    EXPECT_THAT(text, testing::HasSubstr(name + " ")) << name;
   }
 }
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <espalier/fitting/task/fit_options.h>
 #include <espalier/image/measures/metric_table.h>
 
 #include "support/run_espalier.h"
@@ -22,6 +23,13 @@ TEST(ReferenceCommand, HasALineForEachMeasure) {
   for (const Metric& metric : kMetrics)
     EXPECT_THAT(run.out, HasSubstr(std::string("| `") + metric.name + "` |"));
   EXPECT_THAT(read_text_file(ESPALIER_SOURCE_DIR "/docs/measures.md"), HasSubstr(run.out));
+}
+
+TEST(ReferenceCommand, HasALineForEachOptionOfAFit) {
+  const ProgramRun run = run_espalier("reference fit");
+  for (const FitOption& option : fit_options())
+    EXPECT_THAT(run.out, HasSubstr(fmt::format("`{}` |", option.key)));
+  EXPECT_THAT(read_text_file(ESPALIER_SOURCE_DIR "/docs/fit_options.md"), HasSubstr(run.out));
 }
 
 TEST(ReferenceCommand, RefusesAnUnknownTopic) {
