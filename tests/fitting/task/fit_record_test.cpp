@@ -96,8 +96,10 @@ RC_GTEST_PROP(FitRecord, NumbersKeepTheirBits, (double value)) {
 
 TEST(FitRecord, NamesFileAndKeyOfWhatIsMissingOrWrong) {
   const std::string text = record_to_toml(full_record(), {});
-  EXPECT_THAT(reading_error(replaced(text, "fit_seeds = 3\n", "")),
-              HasSubstr("run.toml: fit_seeds: got nothing, expected a whole number 1..1000"));
+  EXPECT_THAT(
+      reading_error(replaced(text, "fit_seeds = 3\n", "")),
+      HasSubstr(
+          "run.toml: fit_seeds: got nothing (written by espalier 0.1.0), expected a whole number 1..1000"));
   EXPECT_THAT(reading_error(replaced(text, "seconds = 0.1", "seconds = \"long\"")),
               HasSubstr("budget.seconds: got 'long', expected a number above 0 (s)"));
   EXPECT_THAT(reading_error(replaced(text, "format = 1", "format = 9")),
