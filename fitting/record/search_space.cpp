@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include <espalier/core/field_error.h>
-#include <espalier/fitting/task/search_space.h>
+#include <espalier/fitting/record/search_space.h>
 
 namespace espalier {
 
