@@ -14,6 +14,24 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// The record as it is kept: it names the model and the optimiser that the caller brought along.
+FitRecord record_of(const FitRecord& given, const FitOptions& options) {
+  FitRecord record = given;
+  if (options.model) record.model = options.model->table().model;
+  if (options.optimizer) record.optimizer = options.optimizer->name();
+  return record;
+}
+
+/// An optimiser that no table holds checks its settings itself, in check_searches.
+void check_given(const FitRecord& given, const FitOptions& options) {
+  FitRecord record = given;
+  if (options.optimizer) {
+    record.optimizer = FitRecord{}.optimizer;
+    record.optimizer_settings.clear();
+  }
+  check_record(record);
+}
+
 struct StopAtOnce : Observer {
   bool stop_requested() override { return true; }
 };
@@ -25,18 +43,17 @@ struct NoScorer : Scorer {
 };
 
 /// Lets the optimiser check objective and settings before anything is written: it stops before it begins.
-void check_optimizer(const FitRecord& record, const Objective& objective) {
+void check_optimizer(const FitRecord& record, const Optimizer& optimizer, const Objective& objective) {
   StopAtOnce stop;
-  optimizer_by_name(record.optimizer)
-      .minimize(objective, record.optimizer_settings, {kUnlimited}, {}, record.seed, stop);
+  optimizer.minimize(objective, record.optimizer_settings, {kUnlimited}, {}, record.seed, stop);
 }
 
 /// The same for each of the searches the run will make.
-void check_searches(const FitRecord& record, const SearchSpace& space,
+void check_searches(const FitRecord& record, const Optimizer& optimizer, const SearchSpace& space,
                     const std::optional<SpeciesSpace>& species) {
   NoScorer no_scorer;
-  check_optimizer(record, FitObjective(space, no_scorer));
-  if (species) check_optimizer(record, SpaceObjective(*species, {}, {}, no_scorer));
+  check_optimizer(record, optimizer, FitObjective(space, no_scorer));
+  if (species) check_optimizer(record, optimizer, SpaceObjective(*species, {}, {}, no_scorer));
 }
 
 /// The species space the run searches first, if it does.
@@ -48,15 +65,20 @@ std::optional<SpeciesSpace> space_of(const FitRecord& record, const Model& model
 
 }  // namespace
 
+const Optimizer& optimizer_of(const FitRecord& record, const FitOptions& options) {
+  return options.optimizer ? *options.optimizer : optimizer_by_name(record.optimizer);
+}
+
 FitResult fit(const FitRecord& given, const fs::path& directory, const FitOptions& options) {
   options.resume ? check_run_directory(directory) : check_new_directory(directory);
-  check_record(given);
-  FitRecord record = given;
+  check_given(given, options);
+  FitRecord record = record_of(given, options);
   FitTask task = make_task(record, options.model);
   task.make_renderer = options.make_renderer;
   const ParameterTable& table = task.model->table();
   const std::optional<SpeciesSpace> species = space_of(record, *task.model);
-  check_searches(record, make_search_space(table, table.defaults(), record.search), species);
+  check_searches(record, optimizer_of(record, options),
+                 make_search_space(table, table.defaults(), record.search), species);
   const FitPlan plan = plan_of(record, task);
   hold_overrides(plan, task);
   begin_run_directory(directory, {.record = record, .task = task});

@@ -22,9 +22,10 @@ struct FitProgress {
 
 /// What a run needs besides its record, and what does not change its result.
 struct FitOptions {
-  int threads = 0;               ///< 0: one for each processor
-  bool resume = false;           ///< go on with the run in the directory
-  const Model* model = nullptr;  ///< instead of the record's model by name; not owned
+  int threads = 0;                       ///< 0: one for each processor
+  bool resume = false;                   ///< go on with the run in the directory
+  const Model* model = nullptr;          ///< instead of the record's model by name; not owned
+  const Optimizer* optimizer = nullptr;  ///< instead of the record's optimiser by name; not owned
   RendererFactory make_renderer = make_scanline_renderer;
   std::function<bool()> stop_requested = [] { return false; };  ///< asked before each batch
   std::function<void(const FitProgress&)> on_progress = [](const FitProgress&) {};
@@ -39,7 +40,7 @@ struct FitResult {
   std::optional<MaskMetrics> full_size_metrics;  ///< at 512 pixels, where branches were refined
   long evaluations = 0, branch_steps = 0;
   double seconds = 0;
-  std::string stopped_by;  ///< "evaluations", "time", "target_fitness", "interrupted", "converged"
+  FitStop stopped_by = FitStop::evaluations;
   std::string best_start;
   std::size_t dimension = 0;
   CandidateFailures failures = {};  ///< since the run began or was resumed

@@ -57,15 +57,15 @@ bool FitRun::stop_requested() {
   const bool refining = !state_.branches.lanes.empty();
   const double best_score = refining ? state_.best.score : scorer_.best().score;
   if (!refining && scorer_.limit_reached())
-    state_.stopped_by = "evaluations";
+    state_.stopped_by = FitStop::evaluations;
   else if (budget.target_fitness > 0 && 1 - best_score >= budget.target_fitness)
-    state_.stopped_by = "target_fitness";
+    state_.stopped_by = FitStop::target_fitness;
   else if (scorer_.replaying())
     return false;
   else if (options_.stop_requested())
-    state_.stopped_by = "interrupted";
+    state_.stopped_by = FitStop::interrupted;
   else if (budget.seconds > 0 && seconds() >= budget.seconds)
-    state_.stopped_by = "time";
+    state_.stopped_by = FitStop::time;
   return state_.stopped_by.has_value() || search_time_is_over();
 }
 

@@ -26,6 +26,9 @@ inline constexpr long kUnlimited = 1'000'000'000;
 std::optional<BranchRounds> reached_rounds(const FitRecord& record, const std::filesystem::path& directory,
                                            const FitOptions& options);
 
+/// The one that the caller brought along, or the record's by name.
+const Optimizer& optimizer_of(const FitRecord& record, const FitOptions& options);
+
 /// One run: its state, its clock, and when it stops.
 class FitRun : public Observer {
  public:
@@ -82,7 +85,7 @@ class FitRun : public Observer {
   std::optional<FitTask> finer_task_;  ///< once the finish begins
   Overrides given_overrides_;          ///< of the tree that the refinement starts from
   std::size_t dimension_ = 0;
-  std::string stage_ = "starts";
+  FitStage stage_ = FitStage::starts;
   double seconds_before_ = 0;  ///< of the run up to live_since_
   Clock::time_point live_since_ = Clock::now();
   double refreshed_at_ = 0, refresh_cost_ = 0;

@@ -53,7 +53,7 @@ std::vector<double> FitRun::score_starts(const std::vector<StartPoint>& starts) 
 
 MinimizeResult FitRun::minimize(const Objective& objective, long evaluations,
                                 std::span<const double> points) {
-  return optimizer_by_name(record_.optimizer)
+  return optimizer_of(record_, options_)
       .minimize(objective, record_.optimizer_settings, {evaluations}, points, record_.seed, *this);
 }
 
@@ -62,7 +62,7 @@ MinimizeResult FitRun::minimize(const Objective& objective, long evaluations,
 void FitRun::search_species(const SpeciesSpace& species, std::vector<StartPoint>& starts,
                             std::vector<double>& scores) {
   if (stop_requested()) return;
-  stage_ = "species_space";
+  stage_ = FitStage::species_space;
   const Model& model = *task_.model;
   const auto best = static_cast<std::size_t>(std::min_element(scores.begin(), scores.end()) - scores.begin());
   const ParameterValues start = starts[best].values;
@@ -95,22 +95,22 @@ void FitRun::search(const std::vector<StartPoint>& starts, const std::vector<dou
     const std::vector<double> point = space.encode(starts[order[i]].values);
     points.insert(points.end(), point.begin(), point.end());
   }
-  stage_ = "search";
+  stage_ = FitStage::search;
   state_.archive.emplace(space);
   minimize(FitObjective(space, scorer_), kUnlimited, points);
-  if (!stop_requested()) state_.stopped_by = "converged";
+  if (!stop_requested()) state_.stopped_by = FitStop::converged;
 }
 
 /// Without a search.
 void FitRun::begin_from_best(const std::vector<StartPoint>& starts, const std::vector<double>& scores) {
   const auto best = static_cast<std::size_t>(std::min_element(scores.begin(), scores.end()) - scores.begin());
   if (!starts[best].overrides.empty()) given_overrides_ = starts[best].overrides;
-  if (!state_.stopped_by) state_.stopped_by = "stages";
+  if (!state_.stopped_by) state_.stopped_by = FitStop::stages;
 }
 
 /// From the search alone, so that it comes out the same when the run is resumed.
 void FitRun::measure_how_sure() {
-  if (!state_.archive || state_.stopped_by == "interrupted") return;
+  if (!state_.archive || state_.stopped_by == FitStop::interrupted) return;
   state_.certainty = measure_certainty(*state_.archive, plant_scorer_,
                                        scorer_.evaluations() / kCertaintyShare, record_.seed);
 }

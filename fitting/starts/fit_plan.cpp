@@ -1,4 +1,5 @@
-#include <algorithm>
+#include <fmt/ranges.h>
+
 #include <optional>
 
 #include <espalier/fitting/branches/palm_trunk.h>
@@ -11,7 +12,11 @@ namespace espalier {
 
 namespace {
 
-constexpr const char* kPresetsWithFronds = "palm,fan_palm";
+/// Where fits of palms start: from what the model has with fronds.
+std::string palm_starts(const Model& model, const std::string& start) {
+  const std::vector<std::string> presets = model.palm_presets();
+  return presets.empty() ? start : fmt::format("{}", fmt::join(presets, ","));
+}
 
 /// Makes the parts of a plan in their order: each may look at those before it.
 class Planner {
@@ -24,7 +29,7 @@ class Planner {
         height_m_(target_height_m(record)) {}
 
   FitPlan plan() {
-    plan_.kind = record_.kind == "auto" ? kind_name(reading_.kind) : record_.kind;
+    plan_.kind = record_.kind == KindChoice::automatic ? choice_of(reading_.kind) : record_.kind;
     plan_.shares = shares_of(plan_.kind);
     plan_.choice = record_.search;
     trunk_ = held_trunk();
@@ -36,14 +41,14 @@ class Planner {
 
  private:
   /// Whether the picture is to say anything.
-  bool is_read() const { return record_.kind != "any"; }
+  bool is_read() const { return record_.kind != KindChoice::any; }
   bool starts_are_ours() const { return record_.start == "auto"; }
 
   /// The trunk that a palm is held to; none where the user says how to search, or the model has no such
   /// trunks.
   std::optional<TrunkLine> held_trunk() const {
     const bool is_left_to_us = starts_are_ours() && record_.search.free.empty() && record_.fit_seeds == 1;
-    if (!is_left_to_us || plan_.kind != kind_name(TreeKind::palm) || table_.model != FitRecord{}.model)
+    if (!is_left_to_us || plan_.kind != KindChoice::palm || !can_hold_trunks(*task_.model))
       return std::nullopt;
     return read_trunk_line(without_roots(task_.views.front().target.mask()));
   }
@@ -53,21 +58,27 @@ class Planner {
     if (table_.find(name)) plan_.choice.fixed.insert({name, value});
   }
 
+  void fix(Role role, double value) {
+    const auto row = table_.find(role);
+    if (row && value >= table_.rows[*row].lower && value <= table_.rows[*row].upper)
+      fix(table_.rows[*row].full_name(), value);
+  }
+
   void restrict_choice() {
-    if (plan_.kind == kind_name(TreeKind::leafless)) fix("leaf_blos_num", 0);
+    if (plan_.kind == KindChoice::leafless) fix(Role::leaf_count, 0);
     if (!is_read()) return;
-    if (record_.kind == "auto" && reading_.trunks == 1) fix("branches[0]", 1);
-    plan_.choice.ranges = measured_ranges(reading_, kind_by_name(plan_.kind), height_m_);
+    if (record_.kind == KindChoice::automatic && reading_.trunks == 1) fix(Role::trunk_count, 1);
+    plan_.choice.ranges = measured_ranges(table_, reading_, stated_kind(plan_.kind).value(), height_m_);
     if (!trunk_) return;
-    for (const auto& [name, value] : palm_parameters(*trunk_, task_.views.front().metres_per_px))
+    for (const auto& [name, value] : palm_parameters(table_, *trunk_, task_.views.front().metres_per_px))
       fix(name, value);
   }
 
   std::vector<StartPoint> starts() const {
     if (!record_.stages.search && !starts_are_ours()) return presets_as_written(table_, record_.start);
     std::vector<StartPoint> starts =
-        make_start_points(*task_.model, trunk_ ? kPresetsWithFronds : record_.start, plan_.choice,
-                          record_.growth, height_m_, task_.plant_seeds.front());
+        make_start_points(*task_.model, trunk_ ? palm_starts(*task_.model, record_.start) : record_.start,
+                          plan_.choice, record_.growth, height_m_, task_.plant_seeds.front());
     for (StartPoint& start : starts) {
       if (is_read() && starts_are_ours()) measure(start.values);
       keep_in_ranges(table_, plan_.choice, start.values);
@@ -85,11 +96,11 @@ class Planner {
 
   /// Fronds stay as long as they are while the trunk gets another length.
   void fix_trunk(ParameterValues& values) const {
-    const std::size_t scale = table_.index_of("g_scale"), frond = table_.index_of("length[1]");
+    const std::size_t scale = *table_.find(Role::tree_scale);
     const double before_m = values[scale];
     apply_fixed(table_, plan_.choice, values);
-    values[frond] = std::clamp(values[frond] * before_m / values[scale], table_.rows[frond].lower,
-                               table_.rows[frond].upper);
+    if (const auto frond = table_.find(Role::branch_length, 1))
+      set_role(table_, {Role::branch_length, 1}, values[*frond] * before_m / values[scale], values);
   }
 
   const FitRecord& record_;
@@ -103,13 +114,13 @@ class Planner {
 
 }  // namespace
 
-StageShares shares_of(const std::string& kind) {
+StageShares shares_of(KindChoice kind) {
   // A search of 20 % does as well as one of 40 % (experiments/closeness.md). Leafless trees gain most by what
   // follows, where their branches are traced; their share was chosen on the bundled leafless pictures, and
   // was not varied since.
   constexpr double kSearch = 0.4, kSearchOfLeafless = 0.15;
   constexpr double kBeforeFinish = 0.6;  // chosen in experiments/closeness.md
-  return {kind == kind_name(TreeKind::leafless) ? kSearchOfLeafless : kSearch, kBeforeFinish};
+  return {kind == KindChoice::leafless ? kSearchOfLeafless : kSearch, kBeforeFinish};
 }
 
 FitPlan plan_of(const FitRecord& record, const FitTask& task) { return Planner(record, task).plan(); }

@@ -17,12 +17,11 @@ struct StageShares {
   double before_finish = 0;  ///< of the rounds, or the time, that the refinement gets
 };
 
-/// The shares of a kind of tree, by its name.
-StageShares shares_of(const std::string& kind);
+StageShares shares_of(KindChoice kind);
 
 struct FitPlan {
-  std::string kind;  ///< of tree: the record's; where that is "auto", the first picture's
-  /// The record's choice and what the kind adds to it, unless that is "any": no leaves on a leafless tree,
+  KindChoice kind = KindChoice::any;  ///< the record's; where that is automatic, the first picture's
+  /// The record's choice and what the kind adds to it, unless that is any: no leaves on a leafless tree,
   /// plausible ranges (measured_start.h), one trunk where the picture shows one foot.
   SearchChoice choice;
   /// The record's starts, of a palm those with fronds: thinned, as tall as the target, and to the measure of

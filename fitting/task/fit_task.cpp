@@ -41,13 +41,7 @@ MaskMetrics mean_metrics(const FitTask& task, const std::vector<Mask>& masks) {
   const double weight = 1.0 / static_cast<double>(masks.size());
   for (std::size_t i = 0; i < masks.size(); ++i) {
     const MaskMetrics one = compare_masks(masks[i], task.views[i % task.views.size()].target);
-    mean.pixel_accuracy += weight * one.pixel_accuracy;
-    mean.iou += weight * one.iou;
-    mean.dice += weight * one.dice;
-    mean.tolerant_iou += weight * one.tolerant_iou;
-    mean.outline_iou += weight * one.outline_iou;
-    mean.gap_iou += weight * one.gap_iou;
-    mean.truncated_distance += weight * one.truncated_distance;
+    for (std::size_t row = 0; row < kMetricCount; ++row) mean.values[row] += weight * one.values[row];
   }
   return mean;
 }

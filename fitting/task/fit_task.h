@@ -8,6 +8,7 @@
 #include <espalier/core/random.h>
 #include <espalier/fitting/picture/picture_reading.h>
 #include <espalier/image/measures/compare.h>
+#include <espalier/image/measures/objective.h>
 #include <espalier/overrides/change_graph.h>
 #include <espalier/plant/model.h>
 #include <espalier/render/camera.h>

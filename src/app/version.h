@@ -10,7 +10,7 @@ struct LibraryVersion {
   std::string name, version;
 };
 
-/// "0.1.0", from CMakeLists.txt.
+/// "0.2.0", from CMakeLists.txt.
 std::string program_version();
 
 /// The commit the program was built from: twelve hexadecimal digits, "-dirty" where files differed from

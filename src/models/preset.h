@@ -26,7 +26,9 @@ std::vector<std::string> bundled_presets();
 /// file, line, key, got and expected for unknown keys, wrong types and values outside their bounds.
 Preset load_preset(const std::string& name_or_path);
 
-/// The preset as TOML that load_preset reads back to the same bits.
+/// The preset as TOML that load_preset reads back to the same bits. The second form is for models that are
+/// not known by name: `table` is that of the preset's model.
 std::string preset_to_toml(const Preset& preset);
+std::string preset_to_toml(const Preset& preset, const ParameterTable& table);
 
 }  // namespace espalier

@@ -35,7 +35,10 @@ std::string comment(const ParameterInfo& row) {
 }  // namespace
 
 std::string preset_to_toml(const Preset& preset) {
-  const ParameterTable& table = model_by_name(preset.model).table();
+  return preset_to_toml(preset, model_by_name(preset.model).table());
+}
+
+std::string preset_to_toml(const Preset& preset, const ParameterTable& table) {
   ESPALIER_CHECK_EQ(preset.values.size(), table.rows.size());
   std::string text = fmt::format("name = {}\ndescription = {}\nmodel = {}\n\n", quote_toml(preset.name),
                                  quote_toml(preset.description), quote_toml(preset.model));

@@ -36,12 +36,8 @@ TEST(CompareCommand, JsonHoldsTheMeasuresOfTheMasks) {
   const MaskMetrics metrics = compare_masks(read_mask(a).mask, read_mask(b).mask);
   EXPECT_EQ(json["framed"], false);
   EXPECT_EQ(json["width_px"], 512);
-  EXPECT_EQ(json["iou"], metrics.iou);
-  EXPECT_EQ(json["dice"], metrics.dice);
-  EXPECT_EQ(json["pixel_accuracy"], metrics.pixel_accuracy);
-  EXPECT_EQ(json["tolerant_iou"], metrics.tolerant_iou);
-  EXPECT_EQ(json["outline_iou"], metrics.outline_iou);
-  EXPECT_EQ(json["truncated_distance"], metrics.truncated_distance);
+  for (std::size_t row = 0; row < kMetricCount; ++row)
+    EXPECT_EQ(json[kMetrics[row].name], metrics.values[row]) << kMetrics[row].name;
 }
 
 TEST(CompareCommand, PicturesOfDifferentSizesAreFramed) {

@@ -143,7 +143,7 @@ TEST_F(MeshCommand, BadDetailsSeedsAndParametersAreRefused) {
   expect_refused(kSmallTree + " --detail nan", "a.glb", "--detail nan");
   expect_refused(kSmallTree + " --seed -1", "a.glb", "expected a whole number");
   expect_refused(kSmallTree + " --set g_scale", "a.glb", "expected name=value");
-  expect_refused(kSmallTree + " --set g_scale=", "a.glb", "'' is not a number");
+  expect_refused(kSmallTree + " --set g_scale=", "a.glb", "got '' for g_scale");
   expect_refused(kSmallTree + " --set g_scale=nan", "a.glb", "g_scale");
   expect_refused(kSmallTree + " --set levels=9", "a.glb", "levels");
   expect_refused(kSmallTree + " --set g_skale=3", "a.glb", "g_skale");
