@@ -6,7 +6,7 @@
 set -euo pipefail
 
 build=$(readlink -f "$1")
-source_dir=$(dirname "$(readlink -f "$0")")/../..
+source_dir=$(readlink -f "$(dirname "$(readlink -f "$0")")/../..")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 prefix=$scratch/moved
