@@ -13,3 +13,28 @@ if(ESPALIER_SANITIZE)
                          -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(espalier_options INTERFACE -fsanitize=${ESPALIER_SANITIZE})
 endif()
+
+# The presets of the sanitizers compile each room, and each test program, as one file (CMAKE_UNITY_BUILD): a third
+# of the time. Not part of that are sources with a local name that another file of the room has too, and those
+# that Highway compiles once for each instruction set.
+set(ESPALIER_KEPT_APART
+  fitting/starts/start_points.cpp
+  src/environment/closed_mesh.cpp src/environment/volume_tree.cpp
+  src/render/embree/blossom_triangles.cpp src/render/embree/leaf_polygons.cpp
+  tests/app/commands/space_command_test.cpp
+  tests/environment/volume_tree_test.cpp
+  tests/experiments/runner/csv_test.cpp
+  tests/fitting/run/staged_fit_test.cpp
+  tests/overrides/reshape_test.cpp
+  tests/weber_penn/branch_overrides_test.cpp tests/weber_penn/simd/stem_batch_test.cpp)
+
+# espalier_keep_apart(SOURCES...): marks those of them that are not compiled with their room.
+function(espalier_keep_apart)
+  foreach(source IN LISTS ARGN)
+    file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${source})
+    file(STRINGS ${source} compiled_often REGEX "include.*hwy/foreach_target\\.h" LIMIT_COUNT 1)
+    if(compiled_often OR name IN_LIST ESPALIER_KEPT_APART)
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
+endfunction()

@@ -32,6 +32,8 @@ function(espalier_room folder)
   espalier_room_targets(target ${path})
   espalier_room_targets(used ${room_USES})
   file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")  # of the program; test programs have one of their own
+  espalier_keep_apart(${sources})
   add_library(${target} STATIC ${sources})
   string(REPLACE "/" "_" name ${path})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} FOLDER ${folder})

@@ -101,8 +101,8 @@ std::vector<Candidates> collect(const MeasuredTarget& target) {
 
 /// One leaf for `per_kept`, as much larger that the area stays.
 Candidates with_fewer_leaves(Candidates candidates, int per_kept) {
-  const std::size_t count = *measured_model().table().find("leaf_blos_num"),
-                    scale = *measured_model().table().find("leaf_scale");
+  const std::size_t count = *measured_model().table().find(Role::leaf_count),
+                    scale = *measured_model().table().find(Role::leaf_length);
   for (ParameterValues& values : candidates) {
     values[count] /= per_kept;
     values[scale] *= std::sqrt(per_kept);

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <map>
 
 #include <espalier/core/error.h>
@@ -11,6 +11,7 @@
 #include <espalier/experiments/runner/experiment_directory.h>
 #include <espalier/experiments/runner/plan.h>
 #include <espalier/image/measures/compare.h>
+#include <espalier/image/measures/metrics_json.h>
 #include <espalier/image/reading/read_target.h>
 
 namespace espalier {
@@ -20,9 +21,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::array kMetrics{"iou", "tolerant_iou", "outline_iou", "gap_iou", "truncated_distance"};
-using Metrics = std::array<double, kMetrics.size()>;
 
 constexpr const char* kNoTree = "outline, no tree";
 constexpr const char* kAll = "all";
@@ -35,36 +33,39 @@ struct Entry {
 
 /// The runs of one entry on one target.
 struct Scores {
-  std::vector<Metrics> runs;
+  std::vector<MaskMetrics> runs;
 
   double mean(std::size_t metric) const {
     double sum = 0;
-    for (const Metrics& run : runs) sum += run[metric];
+    for (const MaskMetrics& run : runs) sum += run.values[metric];
     return sum / static_cast<double>(runs.size());
   }
-  /// Of the IoU: the largest less the smallest.
+  /// The largest IoU less the smallest.
   double spread() const {
-    const auto [least, most] = std::minmax_element(
-        runs.begin(), runs.end(), [](const Metrics& a, const Metrics& b) { return a[0] < b[0]; });
-    return (*most)[0] - (*least)[0];
+    const auto [least, most] =
+        std::minmax_element(runs.begin(), runs.end(),
+                            [](const MaskMetrics& a, const MaskMetrics& b) { return a["iou"] < b["iou"]; });
+    return (*most)["iou"] - (*least)["iou"];
   }
 };
 
-/// By target, then by entry.
+/// The scores by target, then by entry.
 struct AllScores {
   std::vector<std::string> targets;
   std::vector<Entry> entries;
   std::map<std::pair<std::string, Entry>, Scores> scores;
 
-  void add(const std::string& target, const Entry& entry, const Metrics& metrics) {
+  void add(const std::string& target, const Entry& entry, const MaskMetrics& metrics) {
     if (std::find(entries.begin(), entries.end(), entry) == entries.end()) entries.push_back(entry);
     scores[{target, entry}].runs.push_back(metrics);
   }
 };
 
-Metrics row_of(const CsvTable& trace, std::size_t row) {
-  Metrics metrics{};
-  for (std::size_t i = 0; i < kMetrics.size(); ++i) metrics[i] = trace.number(row, kMetrics[i]);
+/// Traces of earlier versions lack the measures that are younger.
+MaskMetrics row_of(const CsvTable& trace, std::size_t row) {
+  MaskMetrics metrics;
+  for (std::size_t i = 0; i < kMetricCount; ++i)
+    metrics.values[i] = trace.has(kMetrics[i].name) ? trace.number(row, kMetrics[i].name) : NAN;
   return metrics;
 }
 
@@ -84,17 +85,15 @@ void add_full_size(const FinishedFit& fit, const fs::path& run, AllScores& all) 
   if (summary.is_discarded() || !summary.contains("full_size"))
     return;  // of earlier versions, or without a refinement
   const auto& seen = summary["full_size"];
-  Metrics metrics{};
-  for (std::size_t i = 0; i < kMetrics.size(); ++i) metrics[i] = seen.value(kMetrics[i], 0.0);
-  all.add(fit.target, {fit.method, fmt::format("at {} px", seen.value("size_px", 0))}, metrics);
+  all.add(fit.target, {fit.method, fmt::format("at {} px", seen.value("size_px", 0))},
+          seen.get<MaskMetrics>());
 }
 
 /// The closed and filled outline of the target against the target.
-Metrics outline_alone(const fs::path& run) {
+MaskMetrics outline_alone(const fs::path& run) {
   const TargetOptions written{.method = SeparationMethod::luminance, .side = TreeSide::light};
   const PreparedTarget target(read_mask(run / "target.png", written).mask);
-  const MaskMetrics m = compare_masks(target.outline(), target);
-  return {m.iou, m.tolerant_iou, m.outline_iou, m.gap_iou, m.truncated_distance};
+  return compare_masks(target.outline(), target);
 }
 
 AllScores read_scores(const std::vector<FinishedFit>& fits, const fs::path& directory) {
@@ -118,21 +117,22 @@ std::string group_of(const std::string& target, const TargetGroups& groups) {
   return "";
 }
 
-std::vector<std::string> numbers_of(const Metrics& metrics, double spread) {
+std::vector<std::string> numbers_of(const MaskMetrics& metrics, double spread) {
   std::vector<std::string> cells;
-  for (const double value : metrics) cells.push_back(fmt::format("{:.3f}", value));
+  for (const double value : metrics.values)
+    cells.push_back(std::isnan(value) ? "" : fmt::format("{:.3f}", value));
   cells.push_back(fmt::format("{:.3f}", spread));
   return cells;
 }
 
-Metrics means_of(const Scores& scores) {
-  Metrics means{};
-  for (std::size_t i = 0; i < means.size(); ++i) means[i] = scores.mean(i);
+MaskMetrics means_of(const Scores& scores) {
+  MaskMetrics means;
+  for (std::size_t i = 0; i < kMetricCount; ++i) means.values[i] = scores.mean(i);
   return means;
 }
 
 std::vector<std::string> columns_after(std::vector<std::string> columns) {
-  columns.insert(columns.end(), kMetrics.begin(), kMetrics.end());
+  for (const Metric& metric : kMetrics) columns.emplace_back(metric.name);
   columns.emplace_back("spread_of_iou");
   return columns;
 }
@@ -156,16 +156,16 @@ CsvTable target_table(const AllScores& all, const TargetGroups& groups) {
 void add_group(const std::string& group, const std::vector<std::string>& members, const AllScores& all,
                CsvTable& table) {
   for (const Entry& entry : all.entries) {
-    Metrics sum{};
+    MaskMetrics sum;
     double spread = 0, count = 0;
     for (const std::string& target : members) {
       const auto found = all.scores.find({target, entry});
       if (found == all.scores.end()) continue;
-      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += found->second.mean(i);
+      for (std::size_t i = 0; i < kMetricCount; ++i) sum.values[i] += found->second.mean(i);
       spread += found->second.spread(), ++count;
     }
     if (count == 0) continue;
-    for (double& value : sum) value /= count;
+    for (double& value : sum.values) value /= count;
     std::vector<std::string> row{group, fmt::format("{}", count), entry.method, entry.stage};
     const auto numbers = numbers_of(sum, spread / count);
     row.insert(row.end(), numbers.begin(), numbers.end());

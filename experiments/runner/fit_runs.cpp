@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <espalier/core/error.h>
 #include <espalier/experiments/runner/fit_runs.h>
 #include <espalier/experiments/runner/unseen_trees.h>
@@ -96,16 +98,13 @@ void append(Row& row, const std::string& prefix, const UnseenScore& score) {
 
 Measured measure(const FitResult& result, const FitCell& cell) {
   Measured measured;
-  const MaskMetrics& metrics = result.metrics;
-  measured.results = {{"fitness", table_number(result.fitness)},
-                      {"iou", table_number(metrics.iou)},
-                      {"tolerant_iou", table_number(metrics.tolerant_iou)},
-                      {"outline_iou", table_number(metrics.outline_iou)},
-                      {"gap_iou", table_number(metrics.gap_iou)},
-                      {"pixel_accuracy", table_number(metrics.pixel_accuracy)},
-                      {"truncated_distance", table_number(metrics.truncated_distance)},
-                      {"evaluations", fmt::format("{}", result.evaluations)},
-                      {"stopped_by", result.stopped_by}};
+  measured.results = {{"fitness", table_number(result.fitness)}};
+  for (std::size_t row = 0; row < kMetricCount; ++row) {
+    const double value = result.metrics.values[row];
+    measured.results.emplace_back(kMetrics[row].name, std::isnan(value) ? "" : table_number(value));
+  }
+  measured.results.emplace_back("evaluations", fmt::format("{}", result.evaluations));
+  measured.results.emplace_back("stopped_by", name_of(result.stopped_by));
   if (cell.unseen_seeds > 0) {
     const UnseenTrees unseen(cell.record, cell.unseen_seeds);
     append(measured.results, "unseen_", unseen.score(result.values));
@@ -125,7 +124,7 @@ std::optional<Measured> run_cell(const FitCell& cell, const fs::path& directory,
     context.on_progress(share_done(progress, cell.record.budget));
   };
   const FitResult result = fit(cell.record, directory, options);
-  if (result.stopped_by == "interrupted") return std::nullopt;
+  if (result.stopped_by == FitStop::interrupted) return std::nullopt;
   return measure(result, cell);
 }
 
@@ -202,19 +201,11 @@ Plan plan_fits(const FitsDeclaration& fits, const fs::path& directory) {
   Plan plan;
   plan.label_columns = {"target", "optimizer", "objective", "space", "start", "trained", "seed"};
   plan.threads_per_run = fits.threads;
-  plan.result_columns = {"fitness",
-                         "iou",
-                         "tolerant_iou",
-                         "outline_iou",
-                         "gap_iou",
-                         "pixel_accuracy",
-                         "truncated_distance",
-                         "evaluations",
-                         "stopped_by",
-                         "unseen_fitness",
-                         "unseen_iou",
-                         "truth_fitness",
-                         "truth_iou"};
+  plan.result_columns = {"fitness"};
+  for (const Metric& metric : kMetrics) plan.result_columns.emplace_back(metric.name);
+  for (const char* column :
+       {"evaluations", "stopped_by", "unseen_fitness", "unseen_iou", "truth_fitness", "truth_iou"})
+    plan.result_columns.emplace_back(column);
   plan.time_columns = {"seconds", "evaluations"};
   std::vector<ReadyTarget> targets;
   for (const TargetDeclaration& target : fits.targets) targets.push_back(ready_target(target, directory));

@@ -27,7 +27,7 @@ struct Grower {
 
   explicit Grower(const Preset& preset)
       : model(model_by_name(preset.model)), values(preset.values), bare(preset.values) {
-    if (const auto row = model.table().find("leaf_blos_num")) bare[*row] = 0;
+    if (const auto row = model.table().find(Role::leaf_count)) bare[*row] = 0;
   }
   double seconds(const ParameterValues& of, Seed seed) {
     double shortest = 0;

@@ -4,16 +4,20 @@
 #include <set>
 #include <sstream>
 
+#include <espalier/core/assignment.h>
 #include <espalier/core/data_path.h>
-#include <espalier/core/error.h>
+#include <espalier/core/field_error.h>
 #include <espalier/core/toml_section.h>
 #include <espalier/environment/volume.h>
 #include <espalier/experiments/runner/experiment.h>
 #include <espalier/fitting/optimizers/search_method.h>
 #include <espalier/fitting/search/space_search.h>
+#include <espalier/fitting/starts/start_points.h>
+#include <espalier/fitting/task/fit_options.h>
+#include <espalier/fitting/task/option_values.h>
 #include <espalier/fitting/task/search_space.h>
 #include <espalier/fitting/task/species_components.h>
-#include <espalier/image/measures/compare.h>
+#include <espalier/image/measures/objective.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 
@@ -24,7 +28,7 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string location(const TomlSection& section, std::string_view key) {
-  return fmt::format("{}: key '{}'", toml_location(section.source, section.node(key)), key);
+  return fmt::format("{}: {}", toml_location(section.source, section.node(key)), key);
 }
 
 /// What a check of another part of the program throws, with its place in front.
@@ -32,6 +36,8 @@ template <typename Check>
 auto located(const std::string& place, Check check) {
   try {
     return check();
+  } catch (const FieldError& error) {
+    throw_input_error("{}: {}", place, error.complaint);
   } catch (const InputError& error) {
     throw_input_error("{}: {}", place, error.what());
   }
@@ -65,7 +71,7 @@ double positive(const TomlSection& section, std::string_view key, double otherwi
 class Element {
  public:
   Element(const TomlSection& parent, std::string_view key, const toml::node& node, std::string_view shorthand)
-      : place_(fmt::format("{}: key '{}'", toml_location(parent.source, node), key)),
+      : place_(fmt::format("{}: {}", toml_location(parent.source, node), key)),
         section_{node.is_table() ? *node.as_table() : table_, parent.source} {
     if (node.is_table()) return;
     const auto text = node.value_exact<std::string>();
@@ -173,36 +179,41 @@ std::vector<std::string> read_objectives(const TomlSection& fits, const std::str
   return objectives;
 }
 
-SpaceDeclaration read_space(const Element& element) {
+SpaceDeclaration read_space(const Element& element, const FitRecord& shared) {
   const TomlSection& section = element.section();
   section.expect_only({"label", "free", "fixed", "first"});
+  const Model& model = model_by_name(shared.model);
   SpaceDeclaration space;
   space.label = section.text_or("label", "default");
-  if (section.has("free")) space.search.free = section.texts("free");
-  if (section.has("fixed")) space.search.fixed = section.section("fixed").numbers();
   space.first = section.text_or("first", "");
-  const ParameterTable& table = model_by_name("weber_penn").table();
   located(element.place(), [&] {
-    parse_search_space(space.first);
-    ParameterValues values = table.defaults();
-    apply_fixed(table, space.search, values);
-    return make_search_space(table, values, space.search);
+    FitRecord record = shared;
+    for (const char* key : {"free", "fixed"})
+      if (section.has(key))
+        set_from_request(*find_option(std::string("search.") + key), section.node(key), section.source,
+                         record);
+    space.search = record.search;
+    if (const int components = parse_search_space(space.first)) bundled_species_space(model, components);
+    return make_search_space(model.table(), model.table().defaults(), space.search);
   });
   return space;
 }
 
-std::vector<SpaceDeclaration> read_spaces(const TomlSection& fits) {
+std::vector<SpaceDeclaration> read_spaces(const TomlSection& fits, const FitRecord& shared) {
   if (!fits.has("spaces")) return {SpaceDeclaration{}};
   std::vector<SpaceDeclaration> spaces;
   for (const toml::node& node : filled_array(fits, "spaces"))
-    spaces.push_back(read_space(Element(fits, "spaces", node, "label")));
+    spaces.push_back(read_space(Element(fits, "spaces", node, "label"), shared));
   return spaces;
 }
 
-std::vector<std::string> read_starts(const TomlSection& fits) {
+std::vector<std::string> read_starts(const TomlSection& fits, const FitRecord& shared) {
   if (!fits.has("starts")) return {"auto"};
   filled_array(fits, "starts");
-  return fits.texts("starts");
+  const std::vector<std::string> starts = fits.texts("starts");
+  for (const std::string& start : starts)
+    located(fits, "starts", [&] { return presets_as_written(model_by_name(shared.model).table(), start); });
+  return starts;
 }
 
 /// An array of seeds, or how many: 5 is [1, 2, 3, 4, 5].
@@ -227,25 +238,17 @@ void read_view(const TomlSection& fits, View& view) {
   view = located(fits, "view", [&] { return parse_view("picture:" + fits.text("view")).view; });
 }
 
-/// Truth values, each once.
-std::vector<bool> read_trained(const TomlSection& fits) {
+std::vector<bool> read_trained(const TomlSection& fits, const FitRecord& shared) {
   std::vector<bool> trained;
   if (!fits.has("trained")) return {false};
   for (const toml::node& node : filled_array(fits, "trained")) {
     const auto value = node.value_exact<bool>();
     if (!value) fits.fail("trained", "true and false");
+    if (*value && !model_by_name(shared.model).can_train())
+      fits.fail("trained", fmt::format("false alone: {} cannot grow into a picture", shared.model));
     trained.push_back(*value);
   }
   return trained;
-}
-
-/// A number of rounds, or "time": as many as time allows.
-long read_branch_rounds(const TomlSection& fits, const FitBudget& budget) {
-  if (!fits.has("branch_rounds")) return 0;
-  if (fits.node("branch_rounds").value_exact<std::string>() != "time")
-    return whole_between(fits, "branch_rounds", 0, 1'000'000'000, 0);
-  if (budget.seconds == 0) fits.fail("branch_rounds", "a whole number, or a limit of seconds too");
-  return kWhileTimeLasts;
 }
 
 TargetGroups groups_in(const TomlSection& fits) {
@@ -270,39 +273,51 @@ TargetGroups read_declared_groups(const TomlSection& fits, const std::vector<Tar
   return groups;
 }
 
-/// Budget, growth, size: as the options of espalier fit.
+/// Where the file says something of a field.
+std::string place_of(const TomlSection& fits, const std::string& field) {
+  const FitOption* option = find_option(field);
+  const std::string key = option ? experiment_key(*option) : "";
+  return fits.has(key) ? location(fits, key) : fmt::format("{}: {}", fits.source, key.empty() ? field : key);
+}
+
+/// What all runs share: the options of espalier fit that no list varies.
 FitRecord read_shared_record(const TomlSection& fits) {
   FitRecord record;
   record.views.emplace_back();
   read_view(fits, record.views[0].view);
-  record.budget.evaluations = whole_between(fits, "evaluations", 1, 1'000'000'000, 0);
-  record.budget.seconds =
-      positive(fits, "seconds", record.budget.evaluations > 0 ? 0 : record.budget.seconds);
-  record.budget.target_fitness = fits.number_or("target_fitness", 0);
-  record.target.size_px = static_cast<int>(whole_between(fits, "size", 16, 4096, record.target.size_px));
-  record.fit_seeds = static_cast<int>(whole_between(fits, "fit_seeds", 1, 1000, record.fit_seeds));
-  record.growth.max_stems = positive(fits, "max_stems", record.growth.max_stems);
-  record.growth.max_leaves = positive(fits, "max_leaves", record.growth.max_leaves);
-  record.budget.branch_rounds = read_branch_rounds(fits, record.budget);
-  record.kind = fits.text_or("kind", record.kind);
-  if (fits.has("height")) record.height_m = positive(fits, "height", 10);
+  if (fits.has("evaluations")) record.budget.seconds = 0;  // given alone they are the only limit
+  with_places([&](const std::string& field) { return place_of(fits, field); },
+              [&] {
+                for (const FitOption& option : fit_options())
+                  if (const std::string key = experiment_key(option); fits.has(key))
+                    set_from_request(option, fits.node(key), fits.source, record);
+                check_record(record);
+              });
+  located(place_of(fits, "model"), [&] { return &model_by_name(record.model); });
   return record;
 }
 
+/// The lists that are varied, what belongs to an experiment alone, and the options that all runs share.
+std::vector<std::string> keys_of_fits() {
+  std::vector<std::string> keys{"targets", "optimizers", "objectives", "spaces",       "starts", "seeds",
+                                "view",    "trained",    "threads",    "unseen_seeds", "groups"};
+  for (const FitOption& option : fit_options())
+    if (const std::string key = experiment_key(option); !key.empty()) keys.push_back(key);
+  return keys;
+}
+
 FitsDeclaration read_fits(const TomlSection& fits) {
-  fits.expect_only(
-      {"targets",    "optimizers",     "objectives",    "spaces", "starts",    "seeds",   "evaluations",
-       "seconds",    "target_fitness", "size",          "view",   "fit_seeds", "height",  "max_stems",
-       "max_leaves", "unseen_seeds",   "branch_rounds", "kind",   "trained",   "threads", "groups"});
+  fits.expect_only(keys_of_fits());
   FitsDeclaration declaration;
   declaration.record = read_shared_record(fits);
+  const FitRecord& shared = declaration.record;
   declaration.targets = read_targets(fits);
   declaration.optimizers = read_optimizers(fits);
-  declaration.objectives = read_objectives(fits, declaration.record.objective);
-  declaration.spaces = read_spaces(fits);
-  declaration.starts = read_starts(fits);
+  declaration.objectives = read_objectives(fits, shared.objective);
+  declaration.spaces = read_spaces(fits, shared);
+  declaration.starts = read_starts(fits, shared);
   declaration.seeds = read_seeds(fits);
-  declaration.trained = read_trained(fits);
+  declaration.trained = read_trained(fits, shared);
   declaration.threads = static_cast<int>(whole_between(fits, "threads", 1, 1024, 1));
   declaration.groups = read_declared_groups(fits, declaration.targets);
   declaration.unseen_seeds = static_cast<int>(whole_between(fits, "unseen_seeds", 0, 1000, 0));
@@ -417,20 +432,25 @@ std::string kind_of(const TomlSection& root) {
   return kinds[0];
 }
 
+/// KEY=VALUE as TOML: a decimal number, true, false, what looks like TOML, or else a word, with quotes or
+/// without.
+toml::table parse_setting(const std::string& setting) {
+  const auto [key, value] = parse_assignment(setting);
+  if (value.empty()) throw_input_error("got '{}', expected KEY=VALUE", setting);
+  const bool is_toml = value == "true" || value == "false" || value.find_first_of("[{\"'") == 0;
+  const bool is_bare = !is_toml && !parse_decimal(value);
+  return parse_toml(fmt::format("{} = {}", key, is_bare ? quote_toml(value) : value), "VALUE");
+}
+
 /// The text with these keys of its one table replaced.
 std::string with_settings(const std::string& text, const std::string& source,
                           const std::vector<std::string>& settings) {
   if (settings.empty()) return text;
   toml::table table = parse_toml(text, source);
   toml::table& kind = *table[kind_of({table, source})].as_table();
-  for (const std::string& setting : settings) {
-    toml::table replaced;
-    located(fmt::format("--set {}", setting), [&] {
-      replaced = parse_toml(setting, "VALUE");
-      return 0;
-    });
-    for (const auto& [key, value] : replaced) kind.insert_or_assign(key, value);
-  }
+  for (const std::string& setting : settings)
+    for (const auto& [key, value] : in_field("set", [&] { return parse_setting(setting); }))
+      kind.insert_or_assign(key, value);
   std::ostringstream written;
   written << toml::toml_formatter(table) << "\n";
   return written.str();

@@ -27,7 +27,7 @@ UnseenScore UnseenTrees::score(const ParameterValues& values) const {
   double dissimilarity = 0;
   PlantScorer(task_, 1).score(std::span(&values, 1), std::span(&dissimilarity, 1));
   const auto renderer = task_.make_renderer();
-  return {1 - dissimilarity, mean_metrics(task_, draw_candidate(task_, values, *renderer)).iou};
+  return {1 - dissimilarity, mean_metrics(task_, draw_candidate(task_, values, *renderer))["iou"]};
 }
 
 ParameterValues UnseenTrees::truth(const std::string& species) const {

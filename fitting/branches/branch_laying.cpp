@@ -1,18 +1,16 @@
 #include <cmath>
 
 #include <espalier/fitting/branches/branch_laying.h>
+#include <espalier/fitting/branches/policy.h>
+#include <espalier/fitting/branches/step_size.h>
 #include <espalier/overrides/change_graph.h>
 
 namespace espalier {
 
 namespace {
 
-constexpr std::size_t kPoints = 9;    ///< compared along a line
-constexpr double kDepthWeight = 0.1;  ///< of errors in depth, against those in the picture
-constexpr int kSteps = 700;           ///< of the evolution strategy
-
 BranchOffsets turned(BranchOffsets branch, int turn) {
-  branch.at[2] = turn / 6.0 - 1;
+  branch.at[2] = turn / (kLaying.first_turns / 2.0) - 1;
   return branch;
 }
 
@@ -20,25 +18,25 @@ BranchOffsets turned(BranchOffsets branch, int turn) {
 
 BranchOffsets BranchLayer::lay(const LineInPicture& line, const BranchPath& path, const Solution& tree,
                                Draws& draws) {
-  target_ = evenly_spaced(line.points, kPoints);
+  target_ = evenly_spaced(line.points, kLaying.points);
   outward_ = line.outward;
   Solution one = only(path, tree);
   BranchOffsets best{.path = path};
   double best_error = error_of(best, one);
-  for (int turn = 0; turn < 12; ++turn) try_one(turned(best, turn), one, best, best_error);
-  double sigma = 0.2;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int turn = 0; turn < kLaying.first_turns; ++turn) try_one(turned(best, turn), one, best, best_error);
+  double sigma = kLaying.first_sigma;
+  for (int step = 0; step < kLaying.steps; ++step) {
     const bool better = try_one(mutated(best, sigma, draws), one, best, best_error);
-    sigma = better ? std::min(0.5, 1.5 * sigma) : std::max(0.01, 0.92 * sigma);
+    sigma = better ? wider(sigma) : narrower(sigma);
   }
   set_radius(line.width_px, best, one);
   return best;
 }
 
 BranchOffsets BranchLayer::mutated(BranchOffsets branch, double sigma, Draws& draws) const {
-  if (reseeds_ && draws.chance(0.15)) branch.seed = 1 + draws.below(1'000'000);
+  if (reseeds_ && draws.chance(kLaying.reseeds)) branch.seed = 1 + draws.below(1'000'000);
   for (std::size_t i = 0; i + 1 < branch.at.size(); ++i)  // all but the radius
-    if (draws.chance(0.5)) branch.at[i] = clamped(i, branch.at[i] + sigma * draws.normal());
+    if (draws.chance(kLaying.moves_each)) branch.at[i] = clamped(i, branch.at[i] + sigma * draws.normal());
   return branch;
 }
 
@@ -76,14 +74,14 @@ double BranchLayer::error_of(const BranchOffsets& branch, Solution& one) {
     if (grown_.empty()) first = last;
     grown_.push_back({last.x_px, last.y_px});
   }
-  const std::vector<PixelPoint> points = evenly_spaced(grown_, kPoints);
+  const std::vector<PixelPoint> points = evenly_spaced(grown_, kLaying.points);
   double sum = 0;
-  for (std::size_t i = 0; i < kPoints; ++i)
+  for (std::size_t i = 0; i < kLaying.points; ++i)
     sum += std::pow(points[i].x - target_[i].x, 2) + std::pow(points[i].y - target_[i].y, 2);
   const double length_px =
       std::hypot(target_.back().x - target_.front().x, target_.back().y - target_.front().y);
   const double depth_px = (last.depth_m - first.depth_m) / task_.views[0].metres_per_px;
-  return sum / kPoints + kDepthWeight * std::pow(depth_px - outward_ * length_px, 2);
+  return sum / kLaying.points + kLaying.depth_weight * std::pow(depth_px - outward_ * length_px, 2);
 }
 
 void BranchLayer::set_radius(double width_px, BranchOffsets& branch, Solution& one) {

@@ -5,7 +5,9 @@
 
 #include <espalier/fitting/branches/branch_offsets.h>
 #include <espalier/fitting/branches/branch_refinement.h>
+#include <espalier/fitting/branches/policy.h>
 #include <espalier/fitting/branches/reach_limit.h>
+#include <espalier/fitting/branches/step_size.h>
 #include <espalier/fitting/optimizers/draws.h>
 #include <espalier/overrides/change_graph.h>
 
@@ -15,9 +17,7 @@ namespace {
 
 using Masks = std::vector<Mask>;  ///< one a view
 
-// Of the evolution strategy: its step, in coordinates of kBranchDimensions, and by how much a success or a
-// failure changes it [Rechenberg's rule of one success in five: 1.5 · 0.92^4 is about 1].
-constexpr double kFirstSigma = 0.15, kWidest = 0.5, kNarrowest = 0.01, kWiden = 1.5, kNarrow = 0.92;
+constexpr double kFirstSigma = 0.15;  ///< of the evolution strategy, and after it has narrowed to the least
 
 struct Branch : BranchOffsets {
   double sigma = kFirstSigma;
@@ -157,19 +157,21 @@ class Refinement {
 
   Branch mutated(const Branch& branch) {
     Branch child = branch;
-    if (draws_.chance(branch.removed ? 0.3 : 0.04)) {
+    if (draws_.chance(branch.removed ? kBranchStep.returns : kBranchStep.removes)) {
       child.removed = !child.removed;
       if (child.removed) return child;
-      for (std::size_t i = 0; i < child.at.size(); ++i) child.at[i] = clamped(i, 0.5 * draws_.normal());
+      for (std::size_t i = 0; i < child.at.size(); ++i)
+        child.at[i] = clamped(i, kBranchStep.return_spread * draws_.normal());
       return child;
     }
-    if (draws_.chance(0.08) && task_.model->can_change(Quantity::seed)) {
+    if (draws_.chance(kBranchStep.reseeds) && task_.model->can_change(Quantity::seed)) {
       child.seed = 1 + draws_.below(1'000'000);
       return child;
     }
-    const bool all = draws_.chance(0.3);
+    const bool all = draws_.chance(kBranchStep.moves_all);
     for (std::size_t i = 0; i < child.at.size(); ++i)
-      if (all || draws_.chance(0.4)) child.at[i] = clamped(i, child.at[i] + child.sigma * draws_.normal());
+      if (all || draws_.chance(kBranchStep.moves_each))
+        child.at[i] = clamped(i, child.at[i] + child.sigma * draws_.normal());
     return child;
   }
 
@@ -182,15 +184,14 @@ class Refinement {
       draw(candidate, one);
       const double value = score(rest, candidate);
       if (value <= best && candidate.too_far_m <= branch.too_far_m) {
-        const double sigma = candidate.sigma * (value < best ? kWiden : 1);
+        if (value < best) candidate.sigma = wider(candidate.sigma);
         best = value;
         branch = std::move(candidate);
-        branch.sigma = std::min(kWidest, sigma);
       } else {
-        branch.sigma = std::max(kNarrowest, branch.sigma * kNarrow);
+        branch.sigma = narrower(branch.sigma);
       }
     }
-    if (branch.sigma == kNarrowest) branch.sigma = kFirstSigma;
+    if (branch.sigma == kNarrowestStep) branch.sigma = kFirstSigma;
     return settings_.steps_per_visit;
   }
 

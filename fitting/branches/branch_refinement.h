@@ -1,8 +1,8 @@
-// Stage (d): branch by branch. Each branch of one order gets offsets on what the model gives it (length,
-// place along the parent, angles, curvature, radius, and other random numbers) by a (1+1) evolution strategy.
-// A step grows and draws that branch alone and joins it to the stored silhouette of all the rest, so it costs
-// a small part of an evaluation. Beyer & Schwefel 2002 (Evolution strategies), §2: success rule of
-// Rechenberg.
+// Stage 5 of a fit: branch by branch. Each branch of one order gets offsets on what the model gives it
+// (length, place along the parent, angles, curvature, radius, and other random numbers) by a (1+1) evolution
+// strategy. A step grows and draws that branch alone and joins it to the stored silhouette of all the rest,
+// so it costs a small part of an evaluation. Beyer & Schwefel 2002 (Evolution strategies), §2: success rule
+// of Rechenberg.
 #pragma once
 #include <espalier/fitting/branches/solution.h>
 #include <espalier/fitting/task/fit_task.h>

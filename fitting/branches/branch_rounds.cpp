@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
@@ -6,6 +8,7 @@
 #include <espalier/core/parallel_for.h>
 #include <espalier/fitting/branches/branch_refinement.h>
 #include <espalier/fitting/branches/branch_rounds.h>
+#include <espalier/image/measures/metrics_json.h>
 #include <espalier/overrides/overrides_toml.h>
 
 namespace espalier {
@@ -23,26 +26,34 @@ constexpr std::array<RoundKind, 8> kCycle{
     {{0, 100}, {1, 2000}, {1, 2000}, {2, 2000}, {1, 2000}, {2, 2000}, {2, 2000}, {3, 2000}}};
 
 nlohmann::ordered_json row_to_json(const RoundRow& row) {
-  const MaskMetrics& m = row.metrics;
-  return {
-      {"stage", row.stage},
-      {"steps", row.steps},
-      {"seconds", row.seconds},
-      {"score", row.score},
-      {"own_score", row.own_score},
-      {"metrics",
-       {m.pixel_accuracy, m.iou, m.dice, m.tolerant_iou, m.outline_iou, m.truncated_distance, m.gap_iou}}};
+  return {{"stage", name_of(row.stage)}, {"steps", row.steps},         {"seconds", row.seconds},
+          {"score", row.score},          {"own_score", row.own_score}, {"metrics", row.metrics}};
 }
 
-RoundRow row_from_json(const nlohmann::json& json) {
-  const auto m = json.at("metrics").get<std::array<double, 7>>();
+/// Earlier versions wrote an array without names, in this order.
+MaskMetrics metrics_from_array(const nlohmann::json& json) {
+  constexpr std::array kOrder{"pixel_accuracy",     "iou",    "dice", "tolerant_iou", "outline_iou",
+                              "truncated_distance", "gap_iou"};
+  nlohmann::json named;
+  for (std::size_t i = 0; i < kOrder.size(); ++i) named[kOrder[i]] = json.at(i);
+  return named.get<MaskMetrics>();
+}
+
+RoundRow row_from_json(const nlohmann::json& json, const std::string& source) {
+  const nlohmann::json& metrics = json.at("metrics");
   RoundRow row;
-  row.stage = json.value("stage", "branches");  // earlier versions had no other
+  // Earlier versions had no other.
+  const std::string stage = json.value("stage", name_of(FitStage::branches));
+  const auto named = value_named<FitStage>(stage);
+  if (!named)
+    throw_input_error("{}: got stage '{}', expected one of {}", source, stage,
+                      fmt::join(names_of<FitStage>(), ", "));
+  row.stage = *named;
   row.steps = json.at("steps");
   row.seconds = json.at("seconds");
   row.score = json.at("score");
   row.own_score = json.value("own_score", row.score);  // earlier versions had one measure
-  row.metrics = {m[0], m[1], m[2], m[3], m[4], m[5], m[6]};
+  row.metrics = metrics.is_array() ? metrics_from_array(metrics) : metrics.get<MaskMetrics>();
   return row;
 }
 
@@ -115,7 +126,8 @@ BranchRounds branch_rounds_from_json(const std::string& text, const std::string&
       state.lanes.push_back(std::move(lane));
     }
     if (json.contains("history"))
-      for (const nlohmann::json& row : json.at("history")) state.history.push_back(row_from_json(row));
+      for (const nlohmann::json& row : json.at("history"))
+        state.history.push_back(row_from_json(row, source));
     if (state.lanes.empty()) throw_input_error("{}: got no lanes, expected one or more", source);
     return state;
   } catch (const nlohmann::json::exception& error) {

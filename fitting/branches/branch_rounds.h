@@ -8,13 +8,14 @@
 #include <vector>
 
 #include <espalier/fitting/branches/solution.h>
+#include <espalier/fitting/task/fit_stages.h>
 #include <espalier/fitting/task/fit_task.h>
 
 namespace espalier {
 
 /// The best tree after a round, for the trace.
 struct RoundRow {
-  std::string stage;  ///< "tracing", "branches" or "finish"
+  FitStage stage = FitStage::branches;  ///< or tracing, finish
   long steps = 0;
   double seconds = 0;
   double score = 1;      ///< in masks of the search's size, as all stages before

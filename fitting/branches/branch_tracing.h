@@ -14,8 +14,9 @@ struct TracingSettings {
   RandomKey key;           ///< of the search's draws
 };
 
-/// The traced tree, with `start`'s leaves and bark, and its score. `start` itself where the model has
-/// not the parameters of a plain tree (Weber–Penn), or the mask no axes. Only the first view is traced.
+/// The traced tree, with `start`'s leaves and bark, and its score. `start` itself where the model's table
+/// does not say by roles how long and how thick a trunk is (tree_scale, and trunk_ratio or trunk_radius), or
+/// the mask has no axes. Only the first view is traced.
 Solution trace_branches(const FitTask& task, const TracingSettings& settings, const Solution& start);
 
 }  // namespace espalier

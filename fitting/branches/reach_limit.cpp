@@ -3,7 +3,6 @@
 #include <limits>
 
 #include <espalier/fitting/branches/reach_limit.h>
-#include <espalier/fitting/picture/picture_reading.h>
 
 namespace espalier {
 
@@ -12,7 +11,7 @@ ReachLimit::ReachLimit(const FitTask& task)
       metres_per_px_(task.views[0].metres_per_px),
       base_depth_m_(project(camera_, {0, 0, 0}).depth_m) {
   constexpr double kLeast = 0.15;  // of the height, where the picture is of a pole
-  const PictureReading reading = read_picture(task.views[0].target.mask());
+  const PictureReading& reading = task.views[0].reading;
   const double half_px = std::max(0.6 * reading.crown_width, kLeast) * reading.height_px;
   half_depth_m_ = task.views.size() > 1 ? std::numeric_limits<float>::infinity()
                                         : static_cast<float>(half_px) * metres_per_px_;

@@ -62,7 +62,7 @@ struct Columns {
   double most_rise;                             ///< at the right end of its column
 
   float in_range(double unit) const { return range_px + kRangePx * static_cast<float>(unit); }
-  /// As the square root: it grows about as the square of a step.
+  /// The length is the square root of a rise, which grows about as the square of a step.
   float in_rise(double rise) const {
     return rise_px + kRisePx * static_cast<float>(std::sqrt(std::clamp(rise / most_rise, 0.0, 1.0)));
   }

@@ -30,7 +30,7 @@ const Optimizer& optimizer_by_name(const std::string& name) {
     if (optimizer->name() == name) return *optimizer;
     names.push_back(optimizer->name());
   }
-  throw_input_error("optimizer: got {}, expected a known one: did you mean {}?", name,
+  throw_input_error("got optimizer '{}', expected a known one: did you mean '{}'?", name,
                     closest_name(name, names));
 }
 

@@ -66,7 +66,8 @@ struct MinimizeResult {
   StopReason stopped_by = StopReason::budget;
 };
 
-/// Settings of an optimiser by name: numbers only; unknown names are InputErrors that list the known ones.
+/// Settings of an optimiser by name: numbers only; an unknown name is an InputError that lists the known
+/// ones.
 using OptimizerSettings = std::map<std::string, double>;
 
 struct SettingInfo {

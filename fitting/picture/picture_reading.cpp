@@ -62,15 +62,4 @@ PictureReading read_picture(const Mask& mask) {
   return reading;
 }
 
-std::string kind_name(TreeKind kind) {
-  constexpr const char* kNames[] = {"leafy", "leafless", "palm"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
-
-TreeKind kind_by_name(const std::string& name) {
-  for (const TreeKind kind : {TreeKind::leafless, TreeKind::palm})
-    if (kind_name(kind) == name) return kind;
-  return TreeKind::leafy;
-}
-
 }  // namespace espalier

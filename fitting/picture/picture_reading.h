@@ -1,13 +1,10 @@
-// Stage (a): what a mask says of its tree before anything is grown. All measures but one are relative to
-// the tree's height, so that they hold at any resolution.
+// Stage 1 of a fit (docs/branches.md): what a mask says of its tree before anything is grown. All measures
+// but one are relative to the tree's height, so that they hold at any resolution.
 #pragma once
-#include <string>
-
+#include <espalier/fitting/picture/tree_kind.h>
 #include <espalier/image/masks/mask.h>
 
 namespace espalier {
-
-enum class TreeKind { leafy, leafless, palm };
 
 struct PictureReading {
   TreeKind kind = TreeKind::leafy;
@@ -25,10 +22,5 @@ struct PictureReading {
 
 /// Throws InputError for an empty mask.
 PictureReading read_picture(const Mask& mask);
-
-/// "leafy", "leafless", "palm".
-std::string kind_name(TreeKind kind);
-/// The inverse; leafy for any other name.
-TreeKind kind_by_name(const std::string& name);
 
 }  // namespace espalier

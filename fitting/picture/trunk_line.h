@@ -1,4 +1,5 @@
-// Stage (a), of palms: the line of the bare trunk, from its foot to the middle of the crown, and its widths.
+// Stage 1 of a fit, of palms: the line of the bare trunk, from its foot to the middle of the crown, and its
+// widths.
 #pragma once
 #include <optional>
 #include <vector>

@@ -1,4 +1,4 @@
-// Stage (a): how wide the trunk is and how far up it is bare, from the rows of a mask.
+// Stage 1 of a fit: how wide the trunk is and how far up it is bare, from the rows of a mask.
 #pragma once
 #include <espalier/image/masks/mask.h>
 #include <espalier/image/masks/mask_box.h>
@@ -13,7 +13,7 @@ struct TrunkMeasures {
   int stems = 0;          ///< runs of pixels a little above the foot
 };
 
-/// Of a mask that is set in `box` and nowhere else.
+/// Measures a mask that is set in `box` and nowhere else.
 TrunkMeasures measure_trunk(const Mask& mask, const MaskBox& box);
 
 }  // namespace espalier

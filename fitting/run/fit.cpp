@@ -3,7 +3,7 @@
 #include <espalier/fitting/run/fit.h>
 #include <espalier/fitting/run/fit_run.h>
 #include <espalier/fitting/search/fit_objective.h>
-#include <espalier/fitting/starts/picture_choice.h>
+#include <espalier/fitting/starts/fit_plan.h>
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/fitting/task/species_components.h>
 #include <espalier/models/models.h>
@@ -30,13 +30,6 @@ void check_given(const FitRecord& given, const FitOptions& options) {
     record.optimizer_settings.clear();
   }
   check_record(record);
-}
-
-FitTask task_of(FitRecord& record, const FitOptions& options) {
-  FitTask task = make_task(record, options.model);
-  task.make_renderer = options.make_renderer;
-  hold_trunk(record, task);
-  return task;
 }
 
 struct StopAtOnce : Observer {
@@ -80,15 +73,17 @@ FitResult fit(const FitRecord& given, const fs::path& directory, const FitOption
   options.resume ? check_run_directory(directory) : check_new_directory(directory);
   check_given(given, options);
   FitRecord record = record_of(given, options);
-  const FitTask task = task_of(record, options);
+  FitTask task = make_task(record, options.model);
+  task.make_renderer = options.make_renderer;
   const ParameterTable& table = task.model->table();
   const std::optional<SpeciesSpace> species = space_of(record, *task.model);
   check_searches(record, optimizer_of(record, options),
                  make_search_space(table, table.defaults(), record.search), species);
-  const std::vector<StartPoint> starts = starts_for(record, task);
+  const FitPlan plan = plan_of(record, task);
+  hold_overrides(plan, task);
   begin_run_directory(directory, {.record = record, .task = task});
   for (const std::string& warning : task.warnings) options.on_warning(warning);
-  return FitRun(record, task, directory, options).run(starts, species);
+  return FitRun(record, task, plan, directory, options).run(species);
 }
 
 }  // namespace espalier

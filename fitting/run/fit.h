@@ -40,7 +40,7 @@ struct FitResult {
   std::optional<MaskMetrics> full_size_metrics;  ///< at 512 pixels, where branches were refined
   long evaluations = 0, branch_steps = 0;
   double seconds = 0;
-  std::string stopped_by;  ///< "evaluations", "time", "target_fitness", "interrupted", "converged"
+  FitStop stopped_by = FitStop::evaluations;
   std::string best_start;
   std::size_t dimension = 0;
   CandidateFailures failures = {};  ///< since the run began or was resumed

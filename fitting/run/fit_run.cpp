@@ -4,7 +4,6 @@
 
 #include <espalier/fitting/certainty/certainty_files.h>
 #include <espalier/fitting/run/fit_run.h>
-#include <espalier/fitting/starts/picture_choice.h>
 
 namespace espalier {
 
@@ -30,15 +29,16 @@ std::optional<BranchRounds> reached_rounds(const FitRecord& record, const fs::pa
   return reached;
 }
 
-FitRun::FitRun(const FitRecord& record, const FitTask& task, const fs::path& directory,
+FitRun::FitRun(const FitRecord& record, const FitTask& task, const FitPlan& plan, const fs::path& directory,
                const FitOptions& options)
     : record_(record),
       threads_(options.threads > 0 ? options.threads : omp_get_num_procs()),
       task_(task),
+      plan_(plan),
+      sized_tasks_(record, task),
       directory_(directory),
       options_(options),
-      state_{.record = record, .task = task, .kind = kind_of(record, task)},
-      choice_(choice_for(record, task)),
+      state_{.record = record, .task = task, .kind = plan.kind},
       log_(directory / "evaluations.bin"),
       plant_scorer_(task, threads_),
       scorer_(
@@ -57,15 +57,15 @@ bool FitRun::stop_requested() {
   const bool refining = !state_.branches.lanes.empty();
   const double best_score = refining ? state_.best.score : scorer_.best().score;
   if (!refining && scorer_.limit_reached())
-    state_.stopped_by = "evaluations";
+    state_.stopped_by = FitStop::evaluations;
   else if (budget.target_fitness > 0 && 1 - best_score >= budget.target_fitness)
-    state_.stopped_by = "target_fitness";
+    state_.stopped_by = FitStop::target_fitness;
   else if (scorer_.replaying())
     return false;
   else if (options_.stop_requested())
-    state_.stopped_by = "interrupted";
+    state_.stopped_by = FitStop::interrupted;
   else if (budget.seconds > 0 && seconds() >= budget.seconds)
-    state_.stopped_by = "time";
+    state_.stopped_by = FitStop::time;
   return state_.stopped_by.has_value() || search_time_is_over();
 }
 
@@ -110,7 +110,7 @@ FitResult FitRun::finish() {
   if (state_.branches.lanes.empty()) state_.best = scorer_.best();
   if (task_.growth.train) state_.metrics_untrained = untrained_metrics();
   if (!state_.branches.lanes.empty())
-    state_.full_size = look_at_full_size(record_, task_, state_.branches.best());
+    state_.full_size = look_at_full_size(record_, task_, sized_tasks_, state_.branches.best());
   refresh_directory();
   const auto best_start =
       std::max_element(state_.starts.begin(), state_.starts.end(),
@@ -131,7 +131,8 @@ FitResult FitRun::finish() {
           .certainty = state_.archive ? certainty_in_words(state_.certainty, *state_.archive) : ""};
 }
 
-FitResult FitRun::run(std::vector<StartPoint> starts, const std::optional<SpeciesSpace>& species) {
+FitResult FitRun::run(const std::optional<SpeciesSpace>& species) {
+  std::vector<StartPoint> starts = plan_.starts;
   std::vector<double> scores = score_starts(starts);
   plant_scorer_.forgive_failures();
   if (species) search_species(*species, starts, scores);

@@ -12,9 +12,10 @@
 #include <espalier/fitting/run/run_directory.h>
 #include <espalier/fitting/search/logged_scorer.h>
 #include <espalier/fitting/search/space_search.h>
-#include <espalier/fitting/starts/start_points.h>
+#include <espalier/fitting/starts/fit_plan.h>
 #include <espalier/fitting/task/plant_scorer.h>
 #include <espalier/fitting/task/search_space.h>
+#include <espalier/fitting/task/sized_tasks.h>
 
 namespace espalier {
 
@@ -31,10 +32,10 @@ const Optimizer& optimizer_of(const FitRecord& record, const FitOptions& options
 /// One run: its state, its clock, and when it stops.
 class FitRun : public Observer {
  public:
-  FitRun(const FitRecord& record, const FitTask& task, const std::filesystem::path& directory,
-         const FitOptions& options);
+  FitRun(const FitRecord& record, const FitTask& task, const FitPlan& plan,
+         const std::filesystem::path& directory, const FitOptions& options);
 
-  FitResult run(std::vector<StartPoint> starts, const std::optional<SpeciesSpace>& species);
+  FitResult run(const std::optional<SpeciesSpace>& species);
   bool stop_requested() override;
 
  private:
@@ -72,10 +73,11 @@ class FitRun : public Observer {
   const FitRecord& record_;
   int threads_;
   const FitTask& task_;
+  const FitPlan& plan_;
+  SizedTasks sized_tasks_;
   std::filesystem::path directory_;
   const FitOptions& options_;
   RunState state_;
-  SearchChoice choice_;
   EvaluationLog log_;
   PlantScorer plant_scorer_;
   LoggedScorer scorer_;
@@ -83,7 +85,7 @@ class FitRun : public Observer {
   std::optional<FitTask> finer_task_;  ///< once the finish begins
   Overrides given_overrides_;          ///< of the tree that the refinement starts from
   std::size_t dimension_ = 0;
-  std::string stage_ = "starts";
+  FitStage stage_ = FitStage::starts;
   double seconds_before_ = 0;  ///< of the run up to live_since_
   Clock::time_point live_since_ = Clock::now();
   double refreshed_at_ = 0, refresh_cost_ = 0;

@@ -4,7 +4,6 @@
 #include <espalier/fitting/picture/picture_reading.h>
 #include <espalier/fitting/run/finish.h>
 #include <espalier/fitting/run/fit_run.h>
-#include <espalier/fitting/task/record_task.h>
 
 namespace espalier {
 
@@ -15,7 +14,7 @@ bool FitRun::will_refine() const {
 
 /// Branch by branch, from the best of the search; what ended the search does not end this.
 void FitRun::refine() {
-  if (state_.stopped_by == "interrupted" || state_.stopped_by == "target_fitness") return;
+  if (state_.stopped_by == FitStop::interrupted || state_.stopped_by == FitStop::target_fitness) return;
   state_.stopped_by.reset();
   state_.best = scorer_.best();
   const auto reached = reached_rounds(record_, directory_, options_);
@@ -23,7 +22,7 @@ void FitRun::refine() {
     go_on_from(*reached);
   else {
     const std::vector<Solution> starts = refinement_starts();
-    stage_ = starts.size() > 1 ? "tracing" : "branches";
+    stage_ = starts.size() > 1 ? FitStage::tracing : FitStage::branches;
     state_.branches = begin_branch_rounds(task_, starts, scorer_.evaluations());
     state_.branches.search_limit = record_.budget.evaluations;
     note_round();
@@ -32,14 +31,15 @@ void FitRun::refine() {
 }
 
 void FitRun::refine_by_rounds() {
-  if (finishing()) finer_task_ = with_finer_views(record_, task_);
+  if (finishing()) finer_task_ = with_finer_views(record_, task_, sized_tasks_);
   while (!stop_requested()) {
     if (state_.branches.rounds == record_.budget.branch_rounds) {
-      state_.stopped_by = "rounds";
+      state_.stopped_by = FitStop::rounds;
       return;
     }
-    if (!finishing() && finish_is_due(record_, state_.branches, seconds())) begin_finish();
-    stage_ = finishing() ? "finish" : "branches";
+    if (!finishing() && finish_is_due(record_, plan_.shares.before_finish, state_.branches, seconds()))
+      begin_finish();
+    stage_ = finishing() ? FitStage::finish : FitStage::branches;
     refine_round(finishing() ? *finer_task_ : task_, record_.seed, threads_, state_.branches);
     note_round();
   }
@@ -47,10 +47,10 @@ void FitRun::refine_by_rounds() {
 
 /// From here on lanes are scored at both sizes.
 void FitRun::begin_finish() {
-  finer_task_ = with_finer_views(record_, task_);
+  finer_task_ = with_finer_views(record_, task_, sized_tasks_);
   state_.branches.finish_from = state_.branches.rounds;
   rescore(*finer_task_, state_.branches);
-  stage_ = "finish";
+  stage_ = FitStage::finish;
   note_round();
 }
 
@@ -59,9 +59,9 @@ std::vector<Solution> FitRun::refinement_starts() {
   const Solution searched{scorer_.best().values, task_.plant_seeds.front(), given_overrides_,
                           scorer_.best().score};
   std::vector<Solution> starts{searched};
-  if (record_.stages.tracing && state_.kind == kind_name(TreeKind::leafless))
-    starts.push_back(trace_branches(make_task_at(record_, kFullSize_px, task_.model),
-                                    {.key = root_key(record_.seed)}, searched));
+  if (record_.stages.tracing && state_.kind == KindChoice::leafless)
+    starts.push_back(
+        trace_branches(sized_tasks_.at(kFullSize_px), {.key = root_key(record_.seed)}, searched));
   return starts;
 }
 

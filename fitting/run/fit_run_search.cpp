@@ -4,7 +4,6 @@
 
 #include <espalier/fitting/run/fit_run.h>
 #include <espalier/fitting/search/fit_objective.h>
-#include <espalier/fitting/starts/picture_choice.h>
 #include <espalier/fitting/task/record_task.h>
 
 namespace espalier {
@@ -20,7 +19,7 @@ constexpr long kCertaintyShare = 10;    ///< one evaluation to so many of the se
 /// Where refinement follows for as long as time lasts.
 bool FitRun::search_time_is_over() const {
   return record_.budget.branch_rounds == kWhileTimeLasts && will_refine() && state_.branches.lanes.empty() &&
-         record_.stages.search && seconds() >= search_share(state_.kind) * record_.budget.seconds;
+         record_.stages.search && seconds() >= plan_.shares.search * record_.budget.seconds;
 }
 
 void FitRun::on_scored(const ScoredBatch& batch) {
@@ -63,15 +62,15 @@ MinimizeResult FitRun::minimize(const Objective& objective, long evaluations,
 void FitRun::search_species(const SpeciesSpace& species, std::vector<StartPoint>& starts,
                             std::vector<double>& scores) {
   if (stop_requested()) return;
-  stage_ = "species_space";
+  stage_ = FitStage::species_space;
   const Model& model = *task_.model;
   const auto best = static_cast<std::size_t>(std::min_element(scores.begin(), scores.end()) - scores.begin());
   const ParameterValues start = starts[best].values;
   const auto prepare = [&](ParameterValues& values) {
     prepare_start(model, record_.growth, target_height_m(record_), task_.plant_seeds.front(), values);
     if (!has_leaves(model.table(), start)) take_leaves(model.table(), values);
-    keep_in_ranges(model.table(), choice_, values);
-    apply_fixed(model.table(), choice_, values);
+    keep_in_ranges(model.table(), plan_.choice, values);
+    apply_fixed(model.table(), plan_.choice, values);
   };
   const SpaceObjective objective(species, start, prepare, scorer_);
   const std::vector<double> begin = objective.box().unit(coordinates_of(species, start));
@@ -87,7 +86,7 @@ void FitRun::search(const std::vector<StartPoint>& starts, const std::vector<dou
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return scores[a] < scores[b]; });
-  const SearchSpace space = make_search_space(task_.model->table(), starts[order[0]].values, choice_,
+  const SearchSpace space = make_search_space(task_.model->table(), starts[order[0]].values, plan_.choice,
                                               target_height_m(record_) / kNominalHeightM);
   dimension_ = space.dimension();
   if (stop_requested()) return;
@@ -96,22 +95,22 @@ void FitRun::search(const std::vector<StartPoint>& starts, const std::vector<dou
     const std::vector<double> point = space.encode(starts[order[i]].values);
     points.insert(points.end(), point.begin(), point.end());
   }
-  stage_ = "search";
+  stage_ = FitStage::search;
   state_.archive.emplace(space);
   minimize(FitObjective(space, scorer_), kUnlimited, points);
-  if (!stop_requested()) state_.stopped_by = "converged";
+  if (!stop_requested()) state_.stopped_by = FitStop::converged;
 }
 
 /// Without a search.
 void FitRun::begin_from_best(const std::vector<StartPoint>& starts, const std::vector<double>& scores) {
   const auto best = static_cast<std::size_t>(std::min_element(scores.begin(), scores.end()) - scores.begin());
   if (!starts[best].overrides.empty()) given_overrides_ = starts[best].overrides;
-  if (!state_.stopped_by) state_.stopped_by = "stages";
+  if (!state_.stopped_by) state_.stopped_by = FitStop::stages;
 }
 
 /// From the search alone, so that it comes out the same when the run is resumed.
 void FitRun::measure_how_sure() {
-  if (!state_.archive || state_.stopped_by == "interrupted") return;
+  if (!state_.archive || state_.stopped_by == FitStop::interrupted) return;
   state_.certainty = measure_certainty(*state_.archive, plant_scorer_,
                                        scorer_.evaluations() / kCertaintyShare, record_.seed);
 }

@@ -7,6 +7,7 @@
 #include <espalier/fitting/branches/solution.h>
 #include <espalier/fitting/task/fit_record.h>
 #include <espalier/fitting/task/fit_task.h>
+#include <espalier/fitting/task/sized_tasks.h>
 
 namespace espalier {
 
@@ -20,7 +21,7 @@ struct FullSize {
 
 /// Grows the tree as the task's searches did, trained into the same outlines. Nothing where the pictures can
 /// no longer be read.
-std::optional<FullSize> look_at_full_size(const FitRecord& record, const FitTask& task,
+std::optional<FullSize> look_at_full_size(const FitRecord& record, const FitTask& task, SizedTasks& sized,
                                           const Solution& solution);
 
 }  // namespace espalier

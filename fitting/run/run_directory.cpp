@@ -6,6 +6,7 @@
 #include <espalier/core/files.h>
 #include <espalier/fitting/certainty/certainty_files.h>
 #include <espalier/fitting/run/run_directory.h>
+#include <espalier/image/measures/metrics_json.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/image/reading/frame.h>
 #include <espalier/image/reading/room_to_grow.h>
@@ -127,14 +128,6 @@ void write_history(const fs::path& directory, const RunState& state) {
   write_png(directory / "convergence.png", chart_to_picture(chart));
 }
 
-nlohmann::ordered_json overlaps_to_json(const MaskMetrics& metrics) {
-  return {{"iou", metrics.iou},
-          {"tolerant_iou", metrics.tolerant_iou},
-          {"outline_iou", metrics.outline_iou},
-          {"gap_iou", metrics.gap_iou},
-          {"truncated_distance", metrics.truncated_distance}};
-}
-
 nlohmann::ordered_json archive_to_json(const SolutionArchive& archive) {
   auto rows = nlohmann::ordered_json::array();
   for (const ArchivedSolution& solution : archive.solutions())
@@ -177,7 +170,7 @@ void check_new_directory(const fs::path& directory) {
                       error ? error.message() : "a file");
   if (fs::directory_iterator(directory, error) != fs::directory_iterator())
     throw_input_error(
-        "{}: got a directory with files in it, expected a new one (--resume goes on with a run)",
+        "{}: got a directory with files in it, expected a new one, or to resume the run in it",
         directory.string());
   if (error)
     throw_input_error("{}: got '{}', expected a directory that can be read", directory.string(),
@@ -221,28 +214,22 @@ void write_run_directory(const fs::path& directory, RunState& state) {
 std::string run_summary(const RunState& state) {
   nlohmann::ordered_json summary;
   summary["fitness"] = 1 - state.best.score;
-  summary["iou"] = state.best_metrics.iou;
-  summary["tolerant_iou"] = state.best_metrics.tolerant_iou;
-  summary["outline_iou"] = state.best_metrics.outline_iou;
-  summary["gap_iou"] = state.best_metrics.gap_iou;
-  summary["pixel_accuracy"] = state.best_metrics.pixel_accuracy;
-  summary["dice"] = state.best_metrics.dice;
-  summary["truncated_distance"] = state.best_metrics.truncated_distance;
+  summary.update(nlohmann::ordered_json(state.best_metrics));
   summary["evaluations"] = state.evaluations;
   summary["branch_rounds"] = state.branches.rounds;
   summary["branch_steps"] = state.branches.steps;
-  summary["kind"] = state.kind;
+  summary["kind"] = name_of(state.kind);
   summary["trained_to_target"] = state.task.growth.train;
-  if (state.metrics_untrained) summary["without_training"] = overlaps_to_json(*state.metrics_untrained);
+  if (state.metrics_untrained) summary["without_training"] = *state.metrics_untrained;
   if (state.full_size) {
-    summary["full_size"] = overlaps_to_json(state.full_size->metrics);
+    summary["full_size"] = state.full_size->metrics;
     summary["full_size"]["size_px"] = state.full_size->best.front().width_px();
   }
   summary["best_at_evaluation"] = state.best.evaluation;
   summary["seconds"] = state.seconds;
   summary["evaluations_per_second"] =
       state.seconds > 0 ? static_cast<double>(state.evaluations) / state.seconds : 0;
-  summary["stopped_by"] = state.stopped_by.value_or("still running, or killed");
+  summary["stopped_by"] = state.stopped_by ? name_of(*state.stopped_by) : "still running, or killed";
   summary["optimizer"] = state.record.optimizer;
   summary["objective"] = state.record.objective;
   summary["model"] = state.record.model;

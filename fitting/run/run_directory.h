@@ -32,12 +32,12 @@ struct RunState {
   MaskMetrics best_metrics = {};
   Trace trace = {};
   BranchRounds branches = {};                         ///< of the refinement; no lanes before it begins
-  std::string kind = {};                              ///< of the tree, as it was read off the picture
+  KindChoice kind = KindChoice::any;                  ///< of the tree, as it was read off the picture
   std::optional<MaskMetrics> metrics_untrained = {};  ///< of the same tree grown without the envelope
   std::optional<FullSize> full_size = {};             ///< once branches are refined
   long evaluations = 0;
   double seconds = 0;
-  std::optional<std::string> stopped_by = {};  ///< none while it runs
+  std::optional<FitStop> stopped_by = {};  ///< none while it runs
   std::size_t embree_disagreement_px = 0;
   CandidateFailures failures = {};              ///< since the run began or was resumed
   std::optional<SolutionArchive> archive = {};  ///< of the search of the parameters, once it begins

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include <espalier/core/error.h>
+#include <espalier/core/field_error.h>
 #include <espalier/core/parallel_for.h>
 #include <espalier/fitting/search/space_search.h>
 
@@ -20,7 +20,7 @@ SpeciesSpace bundled_species_space(const Model& model, int components) {
     if (preset.model == model.table().model) presets.push_back(std::move(preset));
   }
   if (presets.size() < 2)
-    throw_input_error("--space: got {} bundled presets of {}, expected at least 2", presets.size(),
+    throw_field_error("space", "got {} bundled presets of {}, expected at least 2", presets.size(),
                       model.table().model);
   return make_species_space(presets, "monotone", components);
 }

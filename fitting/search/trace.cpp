@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include <espalier/fitting/search/trace.h>
 
@@ -16,10 +17,17 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
+/// A cell and a comma a measure; the cell of an unknown one is empty.
+std::string metric_cells(const MaskMetrics& metrics) {
+  std::string cells;
+  for (const double value : metrics.values) cells += std::isnan(value) ? "," : fmt::format("{:.6f},", value);
+  return cells;
+}
+
 }  // namespace
 
 void Trace::add(const ScoredBatch& batch, double best_score, const MaskMetrics& best_metrics,
-                const std::string& stage) {
+                FitStage stage) {
   pending_scores_.insert(pending_scores_.end(), batch.scores.begin(), batch.scores.end());
   const bool whole_row =
       batch.improved || batch.scores.size() > 1 || pending_scores_.size() >= kRowEvaluations;
@@ -38,7 +46,7 @@ void Trace::add(const ScoredBatch& batch, double best_score, const MaskMetrics& 
 }
 
 void Trace::add_round(long evaluations, double seconds, bool improved, double best_score,
-                      const MaskMetrics& best_metrics, const std::string& stage) {
+                      const MaskMetrics& best_metrics, FitStage stage) {
   const double fitness = 1 - best_score;
   rows_.push_back({.evaluations = evaluations,
                    .seconds = seconds,
@@ -52,16 +60,13 @@ void Trace::add_round(long evaluations, double seconds, bool improved, double be
 }
 
 std::string trace_to_csv(const std::vector<TraceRow>& rows) {
-  std::string csv =
-      "evaluations,seconds,event,best,batch_best,batch_median,batch_worst,"
-      "pixel_accuracy,iou,dice,tolerant_iou,outline_iou,gap_iou,truncated_distance,stage\n";
+  std::string csv = "evaluations,seconds,event,best,batch_best,batch_median,batch_worst,";
+  for (const Metric& metric : kMetrics) csv += fmt::format("{},", metric.name);
+  csv += "stage\n";
   for (const TraceRow& row : rows)
-    csv += fmt::format(
-        "{},{:.3f},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{}\n",
-        row.evaluations, row.seconds, row.improved ? "improvement" : "batch", row.best, row.batch_best,
-        row.batch_median, row.batch_worst, row.metrics.pixel_accuracy, row.metrics.iou, row.metrics.dice,
-        row.metrics.tolerant_iou, row.metrics.outline_iou, row.metrics.gap_iou,
-        row.metrics.truncated_distance, row.stage);
+    csv += fmt::format("{},{:.3f},{},{:.6f},{:.6f},{:.6f},{:.6f},{}{}\n", row.evaluations, row.seconds,
+                       row.improved ? "improvement" : "batch", row.best, row.batch_best, row.batch_median,
+                       row.batch_worst, metric_cells(row.metrics), name_of(row.stage));
   return csv;
 }
 

@@ -7,7 +7,8 @@
 
 #include <espalier/charts/line_chart.h>
 #include <espalier/fitting/search/logged_scorer.h>
-#include <espalier/image/measures/compare.h>
+#include <espalier/fitting/task/fit_stages.h>
+#include <espalier/image/measures/metric_table.h>
 
 namespace espalier {
 
@@ -20,17 +21,17 @@ struct TraceRow {
   double best = 0;                                           ///< fitness of the run so far
   double batch_best = 0, batch_median = 0, batch_worst = 0;  ///< fitness since the row before
   MaskMetrics metrics;                                       ///< of the best so far
-  std::string stage;                                         ///< "starts", "species_space" or "search"
+  FitStage stage = FitStage::search;
 };
 
 class Trace {
  public:
   /// best_metrics: of the best candidate after this batch, whose score is `best_score`. stage: of the run.
   void add(const ScoredBatch& batch, double best_score, const MaskMetrics& best_metrics,
-           const std::string& stage = "search");
+           FitStage stage = FitStage::search);
   /// A row of a stage whose evaluations are not scored in batches.
   void add_round(long evaluations, double seconds, bool improved, double best_score,
-                 const MaskMetrics& best_metrics, const std::string& stage);
+                 const MaskMetrics& best_metrics, FitStage stage);
   const std::vector<TraceRow>& rows() const { return rows_; }
 
  private:

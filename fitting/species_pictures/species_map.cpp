@@ -17,7 +17,7 @@ constexpr std::size_t kArrows = 10;
 constexpr Rgb kInk{60, 60, 60}, kGrid{230, 230, 230}, kPoint{213, 94, 0}, kLeader{150, 150, 150},
     kArrow{0, 114, 178};
 
-/// From coordinates to pixels, the same scale on both axes.
+/// Maps coordinates to pixels, with the same scale on both axes.
 struct MapScale {
   double middle_x = 0, middle_y = 0, px_per_unit = 1;
 

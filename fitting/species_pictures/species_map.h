@@ -11,8 +11,8 @@ struct SpeciesMap {
   int width_px = 0, height_px = 0;
 };
 
-/// Of the first two components; a space of one dimension is a line. Trees that would lie over each other are
-/// moved apart, each with a line to its point.
+/// Maps the first two components; a space of one dimension is a line. Trees that would lie over each other
+/// are moved apart, each with a line to its point.
 SpeciesMap draw_species_map(const SpeciesSpace& space);
 
 }  // namespace espalier

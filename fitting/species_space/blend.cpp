@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <espalier/core/error.h>
+#include <espalier/core/field_error.h>
 #include <espalier/fitting/species_space/blend.h>
 
 namespace espalier {
@@ -19,7 +19,7 @@ double fading(double a, double b, double t) {
 
 /// Both plants with as many levels as the deeper one.
 void deepen(const Model& model, ParameterValues& a, ParameterValues& b) {
-  const auto row = model.table().find(model.table().levels_row);
+  const auto row = model.table().find(Role::levels);
   if (!row) return;
   const int levels = static_cast<int>(std::max(a[*row], b[*row]));
   a = model.deepened(a, levels);
@@ -68,7 +68,7 @@ void keep_equal(const Encoding& encoding, const ParameterValues& a, const Parame
 
 ParameterValues blend(const Model& model, const Encoding& encoding, const ParameterValues& a,
                       const ParameterValues& b, double t) {
-  if (!(t >= 0 && t <= 1)) throw_input_error("--t: got {}, expected a number 0 … 1", t);
+  if (!(t >= 0 && t <= 1)) throw_field_error("t", "got {}, expected a number 0 … 1", t);
   if (t == 0 || a == b) return a;
   if (t == 1) return b;
   ParameterValues deep_a = a, deep_b = b;
@@ -81,7 +81,7 @@ ParameterValues blend(const Model& model, const Encoding& encoding, const Parame
     mixed.choices[choice] = choose(encoding, from, to, choice, t);
   ParameterValues values = encoding.decode(mixed).values;
   keep_equal(encoding, deep_a, deep_b, values);
-  const auto relaxed = model.table().find(model.table().relaxed_row);
+  const auto relaxed = model.table().find(Role::relaxed_counts);
   if (relaxed && encoding.levels_are_a_choice()) values[*relaxed] = 1;
   return values;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <espalier/core/parameter_codec.h>
 #include <espalier/core/parameter_table.h>
 
 namespace espalier {
@@ -30,12 +31,6 @@ struct EncodedValues {
   std::vector<double> numbers;  ///< one a column; valid also where they mean nothing
   std::vector<char> means;      ///< one a column: 0 where the number means nothing to this plant
   std::vector<double> choices;  ///< one a choice
-};
-
-/// A value that was moved into its bounds.
-struct ClampedValue {
-  std::string parameter;  ///< full name
-  double wanted = 0, got = 0;
 };
 
 struct DecodedValues {

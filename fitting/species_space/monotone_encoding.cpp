@@ -1,5 +1,6 @@
 // Each row of the table is written by one of a few codecs, after what its values mean: a number, its
-// logarithm, a count, a choice, shares of a choice that can be mixed, a flag with its magnitudes, a taper.
+// logarithm, a count, a choice, shares of a choice that can be mixed, a flag with its magnitudes; or by the
+// codec that the row names.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -11,41 +12,16 @@ namespace espalier {
 
 namespace {
 
-/// Numbers and choices of one row, being written or read.
-struct Fields {
-  double* numbers;
-  double* choices;
-};
-
-/// Writes one row's value into its fields, and reads it back.
-class Codec {
- public:
-  virtual ~Codec() = default;
-  virtual void add_fields(const ParameterInfo& row, std::size_t index, std::vector<EncodingColumn>& columns,
-                          std::vector<EncodingChoice>& choices) const = 0;
-  virtual void write(const ParameterInfo& row, double value, Fields fields) const = 0;
-  /// Notes in `clamped` a magnitude below zero, which is read as none.
-  virtual double read(const ParameterInfo& row, Fields fields, std::vector<ClampedValue>& clamped) const = 0;
-  /// Whether column `column` of the row means something where the row does.
-  virtual bool means(double value, std::size_t column) const {
-    (void)value, (void)column;
-    return true;
-  }
-};
-
 /// One number: a function of the value and its inverse.
-class NumberCodec : public Codec {
+class NumberCodec : public ParameterCodec {
  public:
   using Function = double (*)(const ParameterInfo& row, double value);
   NumberCodec(Function write, Function read) : write_(write), read_(read) {}
-  void add_fields(const ParameterInfo& row, std::size_t index, std::vector<EncodingColumn>& columns,
-                  std::vector<EncodingChoice>&) const override {
-    columns.push_back({row.full_name(), index});
-  }
-  void write(const ParameterInfo& row, double value, Fields fields) const override {
+  CodedNames names(const ParameterInfo& row) const override { return {{{row.full_name()}}, {}}; }
+  void write(const ParameterInfo& row, double value, CodedFields fields) const override {
     *fields.numbers = write_(row, value);
   }
-  double read(const ParameterInfo& row, Fields fields, std::vector<ClampedValue>&) const override {
+  double read(const ParameterInfo& row, CodedFields fields, std::vector<ClampedValue>&) const override {
     return read_(row, *fields.numbers);
   }
 
@@ -68,42 +44,34 @@ const NumberCodec kLogarithmic([](const ParameterInfo& row,
 double log_count(double count) { return std::log1p(count); }
 double count_of(double number) { return std::expm1(number); }
 
-class ChoiceCodec : public Codec {
+class ChoiceCodec : public ParameterCodec {
  public:
-  void add_fields(const ParameterInfo& row, std::size_t index, std::vector<EncodingColumn>&,
-                  std::vector<EncodingChoice>& choices) const override {
-    choices.push_back({row.full_name(), index});
+  CodedNames names(const ParameterInfo& row) const override { return {{}, {row.full_name()}}; }
+  void write(const ParameterInfo&, double value, CodedFields fields) const override {
+    *fields.choices = value;
   }
-  void write(const ParameterInfo&, double value, Fields fields) const override { *fields.choices = value; }
-  double read(const ParameterInfo&, Fields fields, std::vector<ClampedValue>&) const override {
+  double read(const ParameterInfo&, CodedFields fields, std::vector<ClampedValue>&) const override {
     return *fields.choices;
   }
 };
-
-/// Nothing where the number is below zero by more than rounding, which is noted.
-double magnitude(const ParameterInfo& row, double number, std::vector<ClampedValue>& clamped) {
-  if (number < -1e-9) clamped.push_back({row.full_name(), number, 0});
-  return std::max(0.0, number);
-}
 
 std::string below_zero(const ParameterInfo& row) { return row.full_name() + " is below 0"; }
 
 bool counts_children(const ParameterInfo& row) { return row.relaxable; }
 
 /// A side and one measure for both: how many, along the stem or in a fan.
-class OneMeasureCodec : public Codec {
+class OneMeasureCodec : public ParameterCodec {
  public:
-  void add_fields(const ParameterInfo& row, std::size_t index, std::vector<EncodingColumn>& columns,
-                  std::vector<EncodingChoice>& choices) const override {
-    columns.push_back({row.full_name(), index});
-    choices.push_back({below_zero(row), index});
+  CodedNames names(const ParameterInfo& row) const override {
+    return {{{row.full_name()}}, {below_zero(row)}};
   }
-  void write(const ParameterInfo& row, double value, Fields fields) const override {
+  void write(const ParameterInfo& row, double value, CodedFields fields) const override {
     *fields.choices = value < 0;
     *fields.numbers = counts_children(row) ? log_count(std::fabs(value)) : std::fabs(value);
   }
-  double read(const ParameterInfo& row, Fields fields, std::vector<ClampedValue>& clamped) const override {
-    const double number = magnitude(row, *fields.numbers, clamped);
+  double read(const ParameterInfo& row, CodedFields fields,
+              std::vector<ClampedValue>& clamped) const override {
+    const double number = read_magnitude(row, *fields.numbers, clamped);
     const double measure = counts_children(row) ? count_of(number) : number;
     return *fields.choices > 0.5 ? -measure : measure;
   }
@@ -111,61 +79,38 @@ class OneMeasureCodec : public Codec {
 
 /// A side, and a magnitude for each. Of two effects that meet at zero the other one is absent, and so zero;
 /// of two measures without relation the other one means nothing.
-class TwoMeasuresCodec : public Codec {
+class TwoMeasuresCodec : public ParameterCodec {
  public:
   explicit TwoMeasuresCodec(bool meet_at_zero) : meet_at_zero_(meet_at_zero) {}
-  void add_fields(const ParameterInfo& row, std::size_t index, std::vector<EncodingColumn>& columns,
-                  std::vector<EncodingChoice>& choices) const override {
-    columns.push_back({row.full_name() + " below 0", index, false, meet_at_zero_});
-    columns.push_back({row.full_name() + " from 0", index, false, meet_at_zero_});
-    choices.push_back({below_zero(row), index});
+  CodedNames names(const ParameterInfo& row) const override {
+    const std::string name = row.full_name();
+    return {{{name + " below 0", meet_at_zero_}, {name + " from 0", meet_at_zero_}}, {below_zero(row)}};
   }
-  void write(const ParameterInfo&, double value, Fields fields) const override {
+  void write(const ParameterInfo&, double value, CodedFields fields) const override {
     *fields.choices = value < 0;
     fields.numbers[0] = std::max(0.0, -value);
     fields.numbers[1] = std::max(0.0, value);
   }
-  double read(const ParameterInfo& row, Fields fields, std::vector<ClampedValue>& clamped) const override {
-    return *fields.choices > 0.5 ? -magnitude(row, fields.numbers[0], clamped)
-                                 : magnitude(row, fields.numbers[1], clamped);
+  double read(const ParameterInfo& row, CodedFields fields,
+              std::vector<ClampedValue>& clamped) const override {
+    return *fields.choices > 0.5 ? -read_magnitude(row, fields.numbers[0], clamped)
+                                 : read_magnitude(row, fields.numbers[1], clamped);
   }
-  bool means(double value, std::size_t column) const override {
-    return meet_at_zero_ || (value < 0) == (column == 0);
+  bool means(double value, std::size_t number) const override {
+    return meet_at_zero_ || (value < 0) == (number == 0);
   }
 
  private:
   bool meet_at_zero_;
 };
 
-/// Open or round end, how much the stem narrows, how much it swells [CH, Appendix C].
-class TaperCodec : public Codec {
- public:
-  void add_fields(const ParameterInfo& row, std::size_t index, std::vector<EncodingColumn>& columns,
-                  std::vector<EncodingChoice>& choices) const override {
-    columns.push_back({row.full_name() + " narrowing", index});
-    columns.push_back({row.full_name() + " swelling", index});
-    choices.push_back({row.full_name() + " ends round", index});
-  }
-  void write(const ParameterInfo&, double value, Fields fields) const override {
-    *fields.choices = value >= 1;
-    fields.numbers[0] = value < 1 ? value : std::max(0.0, 2 - value);
-    fields.numbers[1] = std::max(0.0, value - 2);
-  }
-  double read(const ParameterInfo& row, Fields fields, std::vector<ClampedValue>& clamped) const override {
-    const double narrowing = std::min(1.0, magnitude(row, fields.numbers[0], clamped));
-    return *fields.choices > 0.5 ? 2 - narrowing + magnitude(row, fields.numbers[1], clamped) : narrowing;
-  }
-};
-
 const ChoiceCodec kChoice;
 const OneMeasureCodec kOneMeasure;
 const TwoMeasuresCodec kMeetAtZero(true), kUnrelated(false);
-const TaperCodec kTaper;
 
-const Codec& codec_of(const ParameterTable& table, const ParameterInfo& row) {
-  const std::string name = row.full_name();
-  if (row.scale == Scale::choice || name == table.levels_row) return kChoice;
-  if (row.regimes == Regimes::taper) return kTaper;
+const ParameterCodec& codec_of(const ParameterInfo& row) {
+  if (row.codec) return *row.codec;
+  if (row.scale == Scale::choice || row.role.role == Role::levels) return kChoice;
   if (row.sign == SignMeaning::flag && row.sides == FlagSides::one_measure) return kOneMeasure;
   if (row.sign == SignMeaning::flag) return row.sides == FlagSides::meet_at_zero ? kMeetAtZero : kUnrelated;
   const bool at_least_one = row.scale == Scale::integer && row.lower >= 1;
@@ -174,7 +119,7 @@ const Codec& codec_of(const ParameterTable& table, const ParameterInfo& row) {
 
 /// A row and where its fields begin.
 struct CodedRow {
-  const Codec* codec;  ///< none: written by the row it is mixed into
+  const ParameterCodec* codec;  ///< none: written by the row it is mixed into
   std::size_t first_column, first_choice;
 };
 
@@ -207,7 +152,7 @@ class MonotoneEncoding : public Encoding {
 };
 
 MonotoneEncoding::MonotoneEncoding(const ParameterTable& table)
-    : Encoding(table), levels_row_(table.find(table.levels_row)) {
+    : Encoding(table), levels_row_(table.find(Role::levels)) {
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     if (!table.rows[row].mixed_with.empty()) add_mixed(row);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
@@ -232,9 +177,12 @@ bool MonotoneEncoding::is_mixed(std::size_t row) const {
 }
 
 void MonotoneEncoding::add_row(std::size_t row) {
-  const Codec* codec = is_mixed(row) ? nullptr : &codec_of(*table_, table_->rows[row]);
+  const ParameterCodec* codec = is_mixed(row) ? nullptr : &codec_of(table_->rows[row]);
   rows_.push_back({codec, columns_.size(), choices_.size()});
-  if (codec) codec->add_fields(table_->rows[row], row, columns_, choices_);
+  if (!codec) return;
+  const CodedNames names = codec->names(table_->rows[row]);
+  for (const CodedNumber& number : names.numbers) columns_.push_back({number.name, row, false, number.fades});
+  for (const std::string& choice : names.choices) choices_.push_back({choice, row});
 }
 
 bool MonotoneEncoding::row_means(std::size_t row, const ParameterValues& values) const {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include <espalier/core/error.h>
+#include <espalier/core/field_error.h>
 #include <espalier/fitting/species_space/preset_collection.h>
 
 namespace espalier {
@@ -18,7 +18,7 @@ std::vector<fs::path> sorted_entries(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
     paths.push_back(entry.path());
   if (error)
-    throw_input_error("--presets: {}: got '{}', expected a folder that can be read", folder.string(),
+    throw_field_error("presets", "{}: got '{}', expected a folder that can be read", folder.string(),
                       error.message());
   std::sort(paths.begin(), paths.end());
   return paths;
@@ -44,7 +44,7 @@ void load_folder(const fs::path& given, std::vector<Preset>& presets) {
     else if (path.extension() == ".toml")
       presets.push_back(load_preset(path.string()));
   if (presets.size() == before)
-    throw_input_error("--presets: got '{}' without presets, expected *.toml or runs with {}", given.string(),
+    throw_field_error("presets", "got '{}' without presets, expected *.toml or runs with {}", given.string(),
                       kBest);
 }
 

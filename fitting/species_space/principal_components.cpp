@@ -1,7 +1,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 
-#include <espalier/core/error.h>
+#include <espalier/core/field_error.h>
 #include <espalier/fitting/species_space/principal_components.h>
 
 namespace espalier {
@@ -63,7 +63,7 @@ PrincipalComponents principal_components(const Eigen::MatrixXd& rows, const Gaps
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(standard, Eigen::ComputeThinV);
   const Index rank = rank_of(svd.singularValues());
   if (count < 1 || count > rank)
-    throw_input_error("--components: got {}, expected 1 … {}, the rank of these {} presets", count, rank,
+    throw_field_error("components", "got {}, expected 1 … {}, the rank of these {} presets", count, rank,
                       rows.rows());
   pca.variance = svd.singularValues().head(rank).array().square() / static_cast<double>(rows.rows());
   pca.components = svd.matrixV().leftCols(count).transpose();

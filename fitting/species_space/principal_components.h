@@ -16,7 +16,7 @@ struct PrincipalComponents {
   Eigen::MatrixXd components;       ///< a row a component, of unit length, at right angles; a column a column
   Eigen::VectorXd variance;         ///< along all directions there are, largest first; their sum is the whole
   int count() const { return static_cast<int>(components.rows()); }
-  /// Of the variance, the share along component `index`.
+  /// The share of the variance that lies along component `index`.
   double explained(int index) const { return variance[index] / variance.sum(); }
 };
 

@@ -115,7 +115,7 @@ void read_components(const SpaceReader& reader, std::size_t columns, PrincipalCo
 std::string species_space_to_toml(const SpeciesSpace& space) {
   const PrincipalComponents& pca = space.pca;
   std::string text = fmt::format(
-      "# A species space: espalier blend --space FILE --at …\nformat = {}\nmodel = {}\nencoding = {}\n",
+      "# A species space: for espalier blend, space and fits\nformat = {}\nmodel = {}\nencoding = {}\n",
       kFormat, quote_toml(space.model->table().model), quote_toml(space.encoding->name()));
   text += fmt::format("parameters = {}\n", names_to_toml(space.model->table().rows, row_name));
   text += fmt::format("columns = {}\n", names_to_toml(space.encoding->columns(), column_name));

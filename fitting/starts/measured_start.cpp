@@ -28,9 +28,66 @@ double seen_flare(const PictureReading& reading) {
 /// Radius over length of a trunk whose foot, flared, is as wide as the picture's.
 double seen_ratio(const PictureReading& reading) { return 0.45 * reading.trunk_width; }
 
-void set_if_known(const ParameterTable& table, const char* name, double value, ParameterValues& values) {
-  const auto row = table.find(name);
-  if (row) values[*row] = std::clamp(value, table.rows[*row].lower, table.rows[*row].upper);
+/// Ranges of the rows that bear roles.
+class Ranges {
+ public:
+  explicit Ranges(const ParameterTable& table) : table_(table) {}
+
+  void set(RoleOfLevel role, SearchRange range) {
+    const auto row = table_.find(role.role, role.level);
+    if (!row) return;
+    const ParameterInfo& info = table_.rows[*row];
+    if (range.lower <= info.upper && range.upper >= info.lower) by_name_[info.full_name()] = range;
+  }
+  void set_length(Role role, SearchRange range_m) {
+    if (const auto row = table_.find(role); row && table_.rows[*row].unit == "m") set({role}, range_m);
+  }
+  const std::map<std::string, SearchRange>& by_name() const { return by_name_; }
+
+ private:
+  const ParameterTable& table_;
+  std::map<std::string, SearchRange> by_name_;
+};
+
+/// The trunk as it is seen; wood that gets thinner from level to level as that of all species does: else
+/// silhouettes are filled with it.
+void limit_wood(const PictureReading& reading, TreeKind kind, double height_m, Ranges& ranges) {
+  constexpr double kThickestBranch = 0.03;  // radius over the height of the tree
+  const double ratio = seen_ratio(reading);
+  const double most =
+      std::min(kThickestBranch / std::max(ratio, 0.01), kind == TreeKind::leafless ? 2.0 : 1.2);
+  ranges.set({Role::radius_power}, {1, 2.5});
+  ranges.set({Role::branch_radius, 1}, {0.25 * most, most});
+  ranges.set({Role::branch_radius, 2}, {0.3, std::max(most, 1.0)});
+  const SearchRange ratios =
+      shows_trunk(reading) ? SearchRange{std::max(0.002, 0.5 * ratio), std::clamp(1.3 * ratio, 0.006, 0.15)}
+                           : SearchRange{0.005, 0.03};
+  ranges.set({Role::trunk_ratio}, ratios);
+  ranges.set_length(Role::trunk_radius, {ratios.lower * height_m, ratios.upper * height_m});
+  if (shows_trunk(reading)) ranges.set({Role::trunk_flare}, {0, std::max(0.1, seen_flare(reading))});
+}
+
+/// Thin ribs, with leaflets that are long and narrow.
+void limit_fronds(double height_m, Ranges& ranges) {
+  ranges.set({Role::crown_base}, {0.75, 0.98});
+  ranges.set({Role::branch_count, 1}, {10, 60});
+  ranges.set({Role::branch_length, 1}, {0.08, 0.9});
+  ranges.set({Role::branch_radius, 1}, {0.05, 0.4});
+  ranges.set_length(Role::leaf_length, {0.015 * height_m, 0.06 * height_m});
+  ranges.set({Role::leaf_width}, {0.04, 0.16});
+  ranges.set({Role::leaf_count}, {60, 300});
+}
+
+void limit_crown(const PictureReading& reading, double height_m, Ranges& ranges) {
+  constexpr double kLongestLeaf = 0.035;  // of the height: longer ones fill crowns as blobs
+  ranges.set_length(Role::leaf_length, {0.003 * height_m, kLongestLeaf * height_m});
+  ranges.set({Role::leaf_count}, {8, 120});
+  const double base = lowest_base(reading);
+  ranges.set({Role::crown_base}, {base, std::max(0.6, base + 0.2)});
+  ranges.set({Role::branch_length, 1}, {0.05, 0.9});
+  ranges.set({Role::branch_length, 2}, {0.05, 0.7});
+  ranges.set({Role::trunk_bend}, {-30, 30});
+  ranges.set({Role::trunk_bend_variation}, {0, 50});
 }
 
 /// Across all directions: the picture's may be any of them.
@@ -44,58 +101,31 @@ double grown_width_m(const Model& model, const GrowthBudget& budget, Seed seed,
 
 }  // namespace
 
-std::map<std::string, SearchRange> measured_ranges(const PictureReading& reading, TreeKind kind,
-                                                   double height_m) {
-  std::map<std::string, SearchRange> ranges;
-  // Radii that shrink from level to level, as all species' do: else silhouettes are filled with wood.
-  constexpr double kThickestBranch = 0.03;  // radius over the height of the tree
-  const double ratio = seen_ratio(reading);
-  const double most =
-      std::min(kThickestBranch / std::max(ratio, 0.01), kind == TreeKind::leafless ? 2.0 : 1.2);
-  ranges["ratio_power"] = {1, 2.5};
-  ranges["radius_mod[1]"] = {0.25 * most, most};
-  ranges["radius_mod[2]"] = {0.3, std::max(most, 1.0)};
-  ranges["ratio"] = shows_trunk(reading)
-                        ? SearchRange{std::max(0.002, 0.5 * ratio), std::clamp(1.3 * ratio, 0.006, 0.15)}
-                        : SearchRange{0.005, 0.03};
-  if (shows_trunk(reading)) ranges["flare"] = {0, std::max(0.1, seen_flare(reading))};
-  ranges["blossom_rate"] = {0, 0};  // a silhouette does not show them
-  if (kind == TreeKind::palm) {     // thin ribs, with leaflets that are long and narrow
-    ranges["base_size[0]"] = {0.75, 0.98};
-    ranges["branches[1]"] = {10, 60};
-    ranges["length[1]"] = {0.08, 0.9};
-    ranges["radius_mod[1]"] = {0.05, 0.4};
-    ranges["leaf_scale"] = {0.015 * height_m, 0.06 * height_m};
-    ranges["leaf_scale_x"] = {0.04, 0.16};
-    ranges["leaf_blos_num"] = {60, 300};
-  }
-  if (kind == TreeKind::leafy) {
-    constexpr double kLongestLeaf = 0.035;  // of the height: longer ones fill crowns as blobs
-    ranges["leaf_scale"] = {0.003 * height_m, kLongestLeaf * height_m};
-    ranges["leaf_blos_num"] = {8, 120};
-    const double base = lowest_base(reading);
-    ranges["base_size[0]"] = {base, std::max(0.6, base + 0.2)};
-    ranges["length[1]"] = {0.05, 0.9};
-    ranges["length[2]"] = {0.05, 0.7};
-    ranges["curve[0]"] = {-30, 30};
-    ranges["curve_v[0]"] = {0, 50};
-  }
-  return ranges;
+std::map<std::string, SearchRange> measured_ranges(const ParameterTable& table, const PictureReading& reading,
+                                                   TreeKind kind, double height_m) {
+  Ranges ranges(table);
+  limit_wood(reading, kind, height_m, ranges);
+  ranges.set({Role::blossom_share}, {0, 0});  // a silhouette does not show them
+  if (kind == TreeKind::palm) limit_fronds(height_m, ranges);
+  if (kind == TreeKind::leafy) limit_crown(reading, height_m, ranges);
+  return ranges.by_name();
 }
 
 void take_measures(const Model& model, const GrowthBudget& budget, const PictureReading& reading,
                    double height_m, Seed plant_seed, ParameterValues& values) {
   const ParameterTable& table = model.table();
   if (shows_trunk(reading)) {
-    set_if_known(table, "ratio", seen_ratio(reading), values);
-    set_if_known(table, "flare", seen_flare(reading), values);
-    set_if_known(table, "base_size[0]", std::min(reading.crown_base, 0.6), values);
+    set_role(table, {Role::trunk_ratio}, seen_ratio(reading), values);
+    set_role(table, {Role::trunk_radius}, in_own_units(table, seen_ratio(reading) * height_m, values),
+             values);
+    set_role(table, {Role::trunk_flare}, seen_flare(reading), values);
+    set_role(table, {Role::crown_base}, std::min(reading.crown_base, 0.6), values);
   }
-  const auto length = table.find("length[1]");
+  const auto length = table.find(Role::branch_length, 1);
   const double width_m = grown_width_m(model, budget, plant_seed, values);
   if (!length || width_m <= 0) return;
   const double factor = std::clamp(reading.crown_width * height_m / width_m, 0.4, 2.5);
-  set_if_known(table, "length[1]", factor * values[*length], values);
+  set_role(table, {Role::branch_length, 1}, factor * values[*length], values);
 }
 
 }  // namespace espalier

@@ -1,7 +1,7 @@
-// Stage (b): starts made to the measure of the picture, and the ranges that keep the search at plausible
-// plants: wood no thicker than the trunk that is seen, leaves no longer than leaves are, a crown that begins
-// where the picture's does. This file knows the names of the Weber–Penn model's parameters; a model without
-// them is left as it is.
+// Stage 2 of a fit: starts made to the measure of the picture, and the ranges that keep the search at
+// plausible plants: wood no thicker than the trunk that is seen, leaves no longer than leaves are, a crown
+// that begins where the picture's does. Which parameters these are the model's table says by roles
+// (core/parameter_role.h); a model without them is left as it is.
 #pragma once
 #include <map>
 #include <string>
@@ -12,9 +12,10 @@
 
 namespace espalier {
 
-/// Ranges by full names of parameters, for a tree `height_m` tall.
-std::map<std::string, SearchRange> measured_ranges(const PictureReading& reading, TreeKind kind,
-                                                   double height_m);
+/// Ranges by full names of parameters of `table`, for a tree `height_m` tall. Parameters whose valid values
+/// lie outside of them have none, nor have lengths in units of the model's own, which may change.
+std::map<std::string, SearchRange> measured_ranges(const ParameterTable& table, const PictureReading& reading,
+                                                   TreeKind kind, double height_m);
 
 /// Gives a preset, which is `height_m` tall, the picture's trunk, height of the crown and width of the crown,
 /// as far as the preset's form lets it.

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
-#include <espalier/core/error.h>
+#include <espalier/core/field_error.h>
 #include <espalier/fitting/starts/start_points.h>
 #include <espalier/fitting/starts/thinning.h>
 #include <espalier/models/preset.h>
@@ -10,11 +11,6 @@
 namespace espalier {
 
 namespace {
-
-void set_if_known(const ParameterTable& table, const std::string& name, double value,
-                  ParameterValues& values) {
-  if (const auto row = table.find(name)) values[*row] = value;
-}
 
 std::vector<std::string> split_at_commas(const std::string& text) {
   std::vector<std::string> parts;
@@ -41,6 +37,12 @@ void scale_to_height(const Model& model, const GrowthBudget& budget, double heig
   }
 }
 
+/// The count of leaves, where it may be none.
+std::optional<std::size_t> leaves_row(const ParameterTable& table) {
+  const auto row = table.find(Role::leaf_count);
+  return row && table.rows[*row].lower <= 0 ? row : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<StartPoint> presets_as_written(const ParameterTable& table, const std::string& start) {
@@ -48,11 +50,11 @@ std::vector<StartPoint> presets_as_written(const ParameterTable& table, const st
   std::vector<StartPoint> points;
   const bool automatic = start == "auto";
   for (const std::string& name : automatic ? bundled_presets() : split_at_commas(start)) {
-    Preset preset = load_preset(name);
+    Preset preset = in_field("start", [&] { return load_preset(name); });
     if (preset.model == table.model)
       points.push_back({preset.name, std::move(preset.values), std::move(preset.overrides)});
     else if (!automatic)
-      throw_input_error("--start: got '{}' of model {}, expected a preset of {}", name, preset.model,
+      throw_field_error("start", "got '{}' of model {}, expected a preset of {}", name, preset.model,
                         table.model);
   }
   if (points.empty()) points.push_back({"defaults", table.defaults()});
@@ -67,19 +69,19 @@ void scale_plant(const ParameterTable& table, double factor, ParameterValues& va
 
 void prepare_start(const Model& model, const GrowthBudget& budget, double height_m, Seed plant_seed,
                    ParameterValues& values) {
-  set_if_known(model.table(), "g_scale_v", 0, values);
-  set_if_known(model.table(), "relaxed_counts", 1, values);
+  set_role(model.table(), {Role::tree_scale_variation}, 0, values);
+  set_role(model.table(), {Role::relaxed_counts}, 1, values);
   thin_until_grown(model, budget, plant_seed, values);
   scale_to_height(model, budget, height_m, plant_seed, values);
 }
 
 bool has_leaves(const ParameterTable& table, const ParameterValues& values) {
-  const auto row = table.find("leaf_blos_num");
+  const auto row = leaves_row(table);
   return row && values[*row] != 0;
 }
 
 void take_leaves(const ParameterTable& table, ParameterValues& values) {
-  set_if_known(table, "leaf_blos_num", 0, values);
+  if (const auto row = leaves_row(table)) values[*row] = 0;
 }
 
 std::vector<StartPoint> make_start_points(const Model& model, const std::string& start,

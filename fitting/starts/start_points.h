@@ -1,5 +1,5 @@
 // Where a fit begins: presets, made as tall as the target and thinned to the growth budget.
-// This file knows the names of the Weber–Penn model's parameters; a model without them is left as it is.
+// What their parameters are to a fit the model's table says by roles; a model without these is left as it is.
 #pragma once
 #include <string>
 #include <vector>
@@ -26,6 +26,7 @@ void scale_plant(const ParameterTable& table, double factor, ParameterValues& va
 void prepare_start(const Model& model, const GrowthBudget& budget, double height_m, Seed plant_seed,
                    ParameterValues& values);
 
+/// Whether there are leaves, and a count of them that may be 0; without one there are none to take.
 bool has_leaves(const ParameterTable& table, const ParameterValues& values);
 void take_leaves(const ParameterTable& table, ParameterValues& values);
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include <espalier/core/error.h>
 #include <espalier/fitting/starts/thinning.h>
 
 namespace espalier {
@@ -10,33 +10,53 @@ namespace {
 
 constexpr int kThinningSteps = 12;
 
-/// Scales a count towards zero, to a whole number unless that is nothing.
-void thin_count(const ParameterTable& table, const std::string& name, double factor,
-                ParameterValues& values) {
-  const auto row = table.find(name);
+constexpr double kAim = 0.9;  ///< of the budget: estimates are means
+constexpr int kDeepestLevel = 3;
+
+using Row = std::optional<std::size_t>;
+
+/// Scales a count towards zero, whole ones to a whole number unless that is nothing.
+void thin_count(const ParameterTable& table, Row row, double factor, ParameterValues& values) {
   if (!row || values[*row] == 0) return;
-  const double thinned = std::trunc(values[*row] * factor);
-  values[*row] = thinned == 0 ? std::copysign(1.0, values[*row]) : thinned;
+  const ParameterInfo& info = table.rows[*row];
+  double thinned = values[*row] * factor;
+  if (info.scale == Scale::integer) thinned = std::trunc(thinned);
+  if (thinned == 0) thinned = std::copysign(1.0, values[*row]);
+  values[*row] = std::clamp(thinned, info.lower, info.upper);
 }
 
 /// Fewer leaves, as much larger: together they cover the same area.
 void thin_leaves(const ParameterTable& table, double factor, ParameterValues& values) {
-  const auto count = table.find("leaf_blos_num"), scale = table.find("leaf_scale");
+  const Row count = table.find(Role::leaf_count), length = table.find(Role::leaf_length);
   const double before = count ? values[*count] : 0;
-  thin_count(table, "leaf_blos_num", factor, values);
-  if (scale && before != 0)
-    values[*scale] = std::min(values[*scale] * std::sqrt(before / values[*count]), table.rows[*scale].upper);
+  thin_count(table, count, factor, values);
+  if (length && before != 0)
+    values[*length] =
+        std::min(values[*length] * std::sqrt(before / values[*count]), table.rows[*length].upper);
 }
 
-/// "branches[2]" for a tree of three levels, or the next level down towards the trunk that is not yet 1.
-std::string deepest_branches(const ParameterTable& table, const ParameterValues& values) {
-  const auto levels = table.find("levels");
-  int deepest = std::clamp(levels ? static_cast<int>(values[*levels]) - 1 : 0, 1, 3);
-  for (; deepest > 1; --deepest) {
-    const auto row = table.find(fmt::format("branches[{}]", deepest));
-    if (row && std::fabs(values[*row]) > 1) break;
-  }
-  return fmt::format("branches[{}]", deepest);
+bool can_thin(const ParameterTable& table, Row row, const ParameterValues& values) {
+  return row && std::fabs(values[*row]) > std::max(1.0, table.rows[*row].lower);
+}
+
+/// The count of branches of the last level that bears some, or the next level down towards the trunk that is
+/// not yet 1.
+Row deepest_branches(const ParameterTable& table, const ParameterValues& values) {
+  const Row levels = table.find(Role::levels);
+  int deepest = levels ? std::clamp(static_cast<int>(values[*levels]) - 1, 1, kDeepestLevel) : kDeepestLevel;
+  while (deepest > 1 && !can_thin(table, table.find(Role::branch_count, deepest), values)) --deepest;
+  return table.find(Role::branch_count, deepest);
+}
+
+/// Of a model that knows nothing before it has grown: thins what the plant, as far as it grew, has too much
+/// of.
+void thin_grown(const ParameterTable& table, const GrowthBudget& budget, const Plant& plant, double factor,
+                ParameterValues& values) {
+  const bool too_many_stems = static_cast<double>(plant.stems.size()) > budget.max_stems;
+  if (too_many_stems || !can_thin(table, table.find(Role::leaf_count), values))
+    thin_count(table, deepest_branches(table, values), factor, values);
+  else
+    thin_leaves(table, factor, values);
 }
 
 }  // namespace
@@ -45,8 +65,8 @@ void thin_to_budget(const Model& model, const GrowthBudget& budget, ParameterVal
   const ParameterTable& table = model.table();
   for (int step = 0; step < kThinningSteps; ++step) {
     const GrowthEstimate estimate = model.estimate(values);
-    const double stem_factor = 0.9 * budget.max_stems / std::max(estimate.stems, 1.0);
-    const double leaf_factor = 0.9 * budget.max_leaves / std::max(estimate.leaves, 1.0);
+    const double stem_factor = kAim * budget.max_stems / std::max(estimate.stems, 1.0);
+    const double leaf_factor = kAim * budget.max_leaves / std::max(estimate.leaves, 1.0);
     if (estimate.stems <= budget.max_stems && estimate.leaves <= budget.max_leaves) return;
     if (estimate.stems > budget.max_stems)
       thin_count(table, deepest_branches(table, values), stem_factor, values);
@@ -61,9 +81,13 @@ bool thin_until_grown(const Model& model, GrowthBudget budget, Seed seed, Parame
   Plant plant;
   for (int step = 0; step < kSteps; ++step) {
     thin_to_budget(model, budget, values);
-    if (model.generate(values, seed, settings, plant).grown) return true;
-    budget.max_stems *= 0.7;
-    budget.max_leaves *= 0.7;
+    plant.clear();
+    const GrowthResult result = model.generate(values, seed, settings, plant);
+    if (result.grown) return true;
+    if (!model.estimate(values).is_known)
+      thin_grown(model.table(), budget, plant, kAim / result.over_budget_factor, values);
+    else
+      budget.max_stems *= 0.7, budget.max_leaves *= 0.7;
   }
   return false;
 }

@@ -1,5 +1,5 @@
-// Fewer leaves and branches, until a plant fits its growth budget. This file knows the names of the
-// Weber–Penn model's parameters; a model without them is left as it is.
+// Fewer leaves and branches, until a plant fits its growth budget: by the roles leaf_count, leaf_length and
+// branch_count (core/parameter_role.h). A model without them is left as it is.
 #pragma once
 #include <espalier/core/parameter_table.h>
 #include <espalier/core/random.h>

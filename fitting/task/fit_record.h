@@ -8,19 +8,15 @@
 #include <vector>
 
 #include <espalier/fitting/optimizers/optimizer.h>
+#include <espalier/fitting/picture/tree_kind.h>
 #include <espalier/fitting/task/fit_stages.h>
+#include <espalier/fitting/task/fit_stop.h>
 #include <espalier/fitting/task/search_space.h>
+#include <espalier/fitting/task/view_record.h>
 #include <espalier/image/reading/read_target.h>
 #include <espalier/plant/model.h>
-#include <espalier/render/camera.h>
 
 namespace espalier {
-
-/// A picture of the tree and where it was taken from.
-struct ViewRecord {
-  std::filesystem::path picture;
-  View view;
-};
 
 /// Of FitBudget::finish_from: the finish gets the last share of what limits the refinement, rounds or time.
 inline constexpr long kLastShare = -1;
@@ -60,9 +56,8 @@ struct FitRecord {
   std::string space;  ///< "species:2": search two coordinates of the species space first; empty: do not
   long space_evaluations = 300;  ///< most of that first search
   SearchChoice search;
-  std::string kind =
-      "any";  ///< of tree: "auto" reads it off the picture; "any" searches with and without leaves
-  bool train_to_target = false;  ///< keep the tree inside of the pictures' outlines
+  KindChoice kind = KindChoice::any;  ///< of tree
+  bool train_to_target = false;       ///< keep the tree inside of the pictures' outlines
   std::optional<double> height_m;
   std::map<std::string, std::string> versions;  ///< of the program and its libraries
 };
@@ -72,10 +67,11 @@ struct FitOutcome {
   long evaluations = 0;    ///< of the search
   long branch_rounds = 0;  ///< of the refinement
   long finish_from = 0;    ///< round at which its finish began, or would have begun
-  std::string stopped_by;
+  FitStop stopped_by = FitStop::evaluations;
 };
 
-/// Throws InputError where numbers are out of their ranges or names unknown (optimiser, objective, model).
+/// Throws FieldError where numbers are out of their ranges or names unknown (optimiser, objective); whether
+/// the model has the parameters is not looked at.
 void check_record(const FitRecord& record);
 
 std::string record_to_toml(const FitRecord& record, const std::optional<FitOutcome>& outcome);
@@ -85,11 +81,7 @@ struct RecordedRun {
   std::optional<FitOutcome> outcome;
 };
 
-/// Reads run.toml. Throws InputError with file, line, key, got and expected.
+/// Reads run.toml and checks it. Throws InputError with file, line, key, got and expected.
 RecordedRun read_record(const std::filesystem::path& path);
-
-/// "FILE", "FILE:azimuth,elevation" or "FILE:azimuth,elevation,field_of_view" (degrees; with the
-/// last one in perspective). Throws InputError on numbers that are none or out of range.
-ViewRecord parse_view(const std::string& text);
 
 }  // namespace espalier

@@ -4,46 +4,45 @@
 #include <array>
 #include <sstream>
 
-#include <espalier/core/error.h>
+#include <espalier/core/field_error.h>
 #include <espalier/fitting/task/fit_stages.h>
 
 namespace espalier {
 
 namespace {
 
-struct NamedStage {
-  const char* name;
+struct ChosenStage {
+  FitStage stage;
   bool FitStages::*runs;
 };
-constexpr std::array<NamedStage, 4> kStages{{{"search", &FitStages::search},
-                                             {"tracing", &FitStages::tracing},
-                                             {"branches", &FitStages::branches},
-                                             {"finish", &FitStages::finish}}};
-constexpr const char* kNoStage = "starts";
+constexpr std::array<ChosenStage, 4> kStages{{{FitStage::search, &FitStages::search},
+                                              {FitStage::tracing, &FitStages::tracing},
+                                              {FitStage::branches, &FitStages::branches},
+                                              {FitStage::finish, &FitStages::finish}}};
 
 }  // namespace
 
 std::string to_string(const FitStages& stages) {
   std::vector<std::string> names;
-  for (const NamedStage& stage : kStages)
-    if (stages.*stage.runs) names.emplace_back(stage.name);
-  return names.empty() ? kNoStage : fmt::format("{}", fmt::join(names, ","));
+  for (const ChosenStage& chosen : kStages)
+    if (stages.*chosen.runs) names.push_back(name_of(chosen.stage));
+  return names.empty() ? name_of(FitStage::starts) : fmt::format("{}", fmt::join(names, ","));
 }
 
 FitStages parse_stages(const std::string& text) {
   FitStages stages{false, false, false, false};
-  if (text == kNoStage) return stages;
+  if (text == name_of(FitStage::starts)) return stages;
   std::stringstream stream(text);
   std::string name;
   while (std::getline(stream, name, ',')) {
     const auto found = std::find_if(kStages.begin(), kStages.end(),
-                                    [&](const NamedStage& stage) { return stage.name == name; });
+                                    [&](const ChosenStage& chosen) { return name_of(chosen.stage) == name; });
     if (found == kStages.end())
-      throw_input_error("--stages: got '{}', expected names of: starts, {}", name, to_string(FitStages{}));
+      throw_field_error("stages", "got '{}', expected names of: starts, {}", name, to_string(FitStages{}));
     stages.*found->runs = true;
   }
-  if (to_string(stages) == kNoStage)
-    throw_input_error("--stages: got nothing, expected names of: starts, {}", to_string(FitStages{}));
+  if (stages == FitStages{false, false, false, false})
+    throw_field_error("stages", "got nothing, expected names of: starts, {}", to_string(FitStages{}));
   return stages;
 }
 

@@ -15,7 +15,7 @@ TargetView make_target_view(const Mask& mask, float tree_height_px, const View& 
   const auto metres_per_px = static_cast<float>(seen_height_m / tree_height_px);
   const int size_px = mask.width_px();
   return {frame_base({0, 0, 0}, view, metres_per_px, size_px, size_px, base_row_px(size_px)),
-          PreparedTarget(mask), metres_per_px};
+          PreparedTarget(mask), metres_per_px, read_picture(mask)};
 }
 
 std::vector<Mask> draw_candidate(const FitTask& task, const ParameterValues& values,
@@ -41,13 +41,7 @@ MaskMetrics mean_metrics(const FitTask& task, const std::vector<Mask>& masks) {
   const double weight = 1.0 / static_cast<double>(masks.size());
   for (std::size_t i = 0; i < masks.size(); ++i) {
     const MaskMetrics one = compare_masks(masks[i], task.views[i % task.views.size()].target);
-    mean.pixel_accuracy += weight * one.pixel_accuracy;
-    mean.iou += weight * one.iou;
-    mean.dice += weight * one.dice;
-    mean.tolerant_iou += weight * one.tolerant_iou;
-    mean.outline_iou += weight * one.outline_iou;
-    mean.gap_iou += weight * one.gap_iou;
-    mean.truncated_distance += weight * one.truncated_distance;
+    for (std::size_t row = 0; row < kMetricCount; ++row) mean.values[row] += weight * one.values[row];
   }
   return mean;
 }

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include <espalier/core/random.h>
+#include <espalier/fitting/picture/picture_reading.h>
 #include <espalier/image/measures/compare.h>
+#include <espalier/image/measures/objective.h>
 #include <espalier/overrides/change_graph.h>
 #include <espalier/plant/model.h>
 #include <espalier/render/camera.h>
@@ -24,9 +26,11 @@ struct TargetView {
   Camera camera;
   PreparedTarget target;
   float metres_per_px = 0;  ///< in the plane through the base
+  PictureReading reading;   ///< what the mask says of its tree
 };
 
-/// A target mask whose tree, `tree_height_px` tall with its base at base_row_px, is `height_m` tall.
+/// A target mask whose tree, `tree_height_px` tall with its base at base_row_px, is `height_m` tall. Reads
+/// the mask once and for all; throws InputError where it is empty.
 TargetView make_target_view(const Mask& mask, float tree_height_px, const View& view, double height_m);
 
 struct FitTask {

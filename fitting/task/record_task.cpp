@@ -1,4 +1,4 @@
-#include <espalier/core/error.h>
+#include <espalier/core/field_error.h>
 #include <espalier/environment/picture_envelope.h>
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/fitting/task/trunk_room.h>
@@ -49,7 +49,7 @@ void grow_into_pictures(const FitRecord& record, FitTask& task) {
     task.envelope.reset();
     task.warnings.push_back(
         fmt::format("{}: its outline leaves no room for a trunk above the middle of the foot: fitted without "
-                    "--train-to-target",
+                    "growing into it",
                     record.views.front().picture.string()));
     return;
   }
@@ -69,9 +69,8 @@ FitTask make_task(FitRecord& record, const Model* model) {
   for (int i = 0; i < record.fit_seeds; ++i) task.plant_seeds.push_back(record.seed + static_cast<Seed>(i));
   read_views(record, task);
   if (record.train_to_target && !task.model->can_train())
-    throw_input_error(
-        "--train-to-target: got model '{}', which cannot grow into a picture, expected weber_penn",
-        record.model);
+    throw_field_error("train_to_target",
+                      "got model '{}', which cannot grow into a picture, expected weber_penn", record.model);
   if (record.train_to_target) grow_into_pictures(record, task);
   return task;
 }

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <espalier/core/error.h>
+#include <espalier/core/field_error.h>
 #include <espalier/fitting/task/search_space.h>
 
 namespace espalier {
@@ -98,9 +98,9 @@ std::vector<bool> chosen_rows(const ParameterTable& table, const SearchChoice& c
   const std::vector<std::string> patterns =
       choice.free.empty() ? std::vector<std::string>{"default"} : choice.free;
   for (const std::string& pattern : patterns)
-    for (const std::size_t row : rows_matching(table, pattern, "--free")) chosen[row] = true;
+    for (const std::size_t row : rows_matching(table, pattern, "search.free")) chosen[row] = true;
   for (const auto& [pattern, value] : choice.fixed)
-    for (const std::size_t row : rows_matching(table, pattern, "--fix")) chosen[row] = false;
+    for (const std::size_t row : rows_matching(table, pattern, "search.fixed")) chosen[row] = false;
   return chosen;
 }
 
@@ -135,7 +135,7 @@ std::vector<double> SearchSpace::encode(std::span<const double> values) const {
 }
 
 std::vector<std::size_t> rows_matching(const ParameterTable& table, const std::string& pattern,
-                                       const std::string& where) {
+                                       std::string_view field) {
   std::vector<std::size_t> rows;
   std::vector<std::string> known;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
@@ -143,15 +143,17 @@ std::vector<std::size_t> rows_matching(const ParameterTable& table, const std::s
     known.push_back(table.rows[i].full_name());
   }
   if (rows.empty())
-    throw_input_error("{}: got '{}', expected a parameter of {}; the closest is '{}'", where, pattern,
+    throw_field_error(field, "got '{}', expected a parameter of {}; the closest is '{}'", pattern,
                       table.model, closest_name(pattern, known));
   return rows;
 }
 
 void apply_fixed(const ParameterTable& table, const SearchChoice& choice, ParameterValues& values) {
   for (const auto& [pattern, value] : choice.fixed)
-    for (const std::size_t row : rows_matching(table, pattern, "--fix")) {
-      check_value(table.rows[row], value, "--fix");
+    for (const std::size_t row : rows_matching(table, pattern, "search.fixed")) {
+      if (!is_valid_value(table.rows[row], value))
+        throw_field_error("search.fixed", "got {} for {}, expected {}", value, table.rows[row].full_name(),
+                          describe_valid_values(table.rows[row]));
       values[row] = value + 0.0;  // never -0
     }
 }
@@ -173,7 +175,8 @@ SearchSpace make_search_space(const ParameterTable& table, const ParameterValues
   const std::vector<bool> chosen = chosen_rows(table, choice);
   for (std::size_t row = 0; row < chosen.size(); ++row)
     if (chosen[row]) space.free.push_back(make_free(table, row, choice, start[row], metre_factor));
-  if (space.free.empty()) throw_input_error("--fix: got every free parameter, expected one left to search");
+  if (space.free.empty())
+    throw_field_error("search.fixed", "got every free parameter, expected one left to search");
   return space;
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <espalier/core/parameter_table.h>
@@ -55,12 +56,12 @@ struct SearchChoice {
 };
 
 /// Rows of the table that a pattern names: "g_scale", "curve_v[1]", "curve_v" (all levels), with * and ?
-/// for any letters ("*[1]"), "default" for the rows free by default. Throws InputError, opening with
-/// `where` and naming the closest parameter, where there is none.
+/// for any letters ("*[1]"), "default" for the rows free by default. Throws FieldError (of `field`),
+/// naming the closest parameter, where there is none.
 std::vector<std::size_t> rows_matching(const ParameterTable& table, const std::string& pattern,
-                                       const std::string& where);
+                                       std::string_view field);
 
-/// Sets the fixed values in `values`. Throws InputError for unknown names and invalid values.
+/// Sets the fixed values in `values`. Throws FieldError for unknown names and invalid values.
 void apply_fixed(const ParameterTable& table, const SearchChoice& choice, ParameterValues& values);
 
 /// Moves values that lie outside of the ranges to their ends; names that the table does not have are skipped.
@@ -68,7 +69,7 @@ void keep_in_ranges(const ParameterTable& table, const SearchChoice& choice, Par
 
 /// The space around `start` (whose free values widen the ranges that do not hold them). Ranges of rows in
 /// metres are multiplied by `metre_factor` first, and cut to the ranges of `choice`. What is fixed is not
-/// free. Throws InputError for unknown names, or where nothing is left to search.
+/// free. Throws FieldError for unknown names, or where nothing is left to search.
 SearchSpace make_search_space(const ParameterTable& table, const ParameterValues& start,
                               const SearchChoice& choice, double metre_factor = 1);
 

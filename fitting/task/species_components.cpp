@@ -1,7 +1,7 @@
 #include <charconv>
 #include <string_view>
 
-#include <espalier/core/error.h>
+#include <espalier/core/field_error.h>
 #include <espalier/fitting/task/species_components.h>
 
 namespace espalier {
@@ -13,7 +13,7 @@ int parse_search_space(const std::string& text) {
   const std::string_view number = text.starts_with(kKind) ? std::string_view(text).substr(kKind.size()) : "";
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), components);
   if (error != std::errc() || end != number.data() + number.size() || components < 1)
-    throw_input_error("--space: got '{}', expected species:K with a number of components from 1", text);
+    throw_field_error("space", "got '{}', expected species:K with a number of components from 1", text);
   return components;
 }
 

@@ -69,9 +69,21 @@ std::string help_of(const ParameterInfo& row) {
 
 std::string markdown_line(const RowGroup& group) {
   const ParameterInfo& row = *group.front();
-  return fmt::format("| `{}` | {} | {} … {} | {} … {} | {} | {} | {} | {} | {} |\n", group_name(group),
+  return fmt::format("| `{}` | {} | {} … {} | {} … {} | {} | {} | {} | {} | {} | {} |\n", group_name(group),
                      unit_of(row), row.lower, row.upper, row.search_lower, row.search_upper,
-                     scale_name(row.scale), defaults_of(group), free_levels(group), row.symbol, help_of(row));
+                     scale_name(row.scale), defaults_of(group), free_levels(group), row.symbol,
+                     roles_of(group), help_of(row));
+}
+
+/// "trunk_form, branch_length[n]", n being the row's level.
+std::string roles_of(const RowGroup& group) {
+  std::vector<std::string> names;
+  for (const ParameterInfo* row : group) {
+    std::string name = role_name(row->role);
+    if (goes_by_level(row->role.role)) name = name.substr(0, name.find('[')) + "[n]";
+    if (!name.empty() && (names.empty() || names.back() != name)) names.push_back(name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 nlohmann::ordered_json row_as_json(const ParameterInfo& row) {
@@ -86,6 +98,7 @@ nlohmann::ordered_json row_as_json(const ParameterInfo& row) {
                {"sign_is_flag", row.sign == SignMeaning::flag},
                {"default", row.default_value},
                {"free_by_default", row.free_by_default},
+               {"role", role_name(row.role)},
                {"symbol", row.symbol},
                {"help", row.help}});
   if (!row.choices.empty()) json.update({{"choices", row.choices}, {"first_choice", row.first_choice}});
@@ -110,9 +123,11 @@ std::string parameters_as_markdown(const ParameterTable& table) {
       "# Parameters of the model `{0}`\n\n"
       "Made by `espalier params --model {0} --format markdown`. A name with levels is an array in a preset,\n"
       "one value for each level of branching, the trunk first. *Search* is where a fit looks unless told\n"
-      "otherwise; *free* says which levels it changes by default. Lengths in metres, angles in degrees.\n\n"
-      "| parameter | unit | valid | search | scale | default | free | paper | meaning |\n"
-      "|---|---|---|---|---|---|---|---|---|\n",
+      "otherwise; *free* says which levels it changes by default, *role* what it is to a fit. Lengths in "
+      "metres,\n"
+      "angles in degrees.\n\n"
+      "| parameter | unit | valid | search | scale | default | free | paper | role | meaning |\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n",
       table.model);
   for (const RowGroup& group : group_rows(table)) text += markdown_line(group);
   return text;

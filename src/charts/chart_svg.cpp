@@ -47,7 +47,7 @@ std::string label_to_svg(const ChartLabel& label) {
                      escape_xml(label.text));
 }
 
-/// As RFC 4648, §4.
+/// The encoding of RFC 4648, §4.
 std::string base64(const std::string& bytes) {
   constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;

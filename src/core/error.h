@@ -1,5 +1,5 @@
-// The kinds of error (STYLE: bad input, broken invariant). A degenerate candidate is no error:
-// it is a status with a finite penalty, see plant/model.h and fitting/objective.h.
+// The kinds of error (bad input, broken invariant). A degenerate candidate is no error:
+// it is a status with a finite penalty, see plant/model.h and fitting/task/plant_scorer.h.
 #pragma once
 #include <fmt/format.h>
 

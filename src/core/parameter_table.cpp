@@ -45,6 +45,12 @@ std::optional<std::size_t> ParameterTable::find(std::string_view full_name) cons
   return std::nullopt;
 }
 
+std::optional<std::size_t> ParameterTable::find(Role role, int level) const {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].role == RoleOfLevel{role, level}) return i;
+  return std::nullopt;
+}
+
 std::size_t ParameterTable::index_of(std::string_view full_name) const {
   if (const auto index = find(full_name)) return *index;
   std::vector<std::string> known;
@@ -59,14 +65,29 @@ ParameterValues ParameterTable::defaults() const {
   return values;
 }
 
+bool set_role(const ParameterTable& table, RoleOfLevel role, double value, ParameterValues& values) {
+  const auto row = table.find(role.role, role.level);
+  if (row) values[*row] = std::clamp(value, table.rows[*row].lower, table.rows[*row].upper);
+  return row.has_value();
+}
+
+double in_own_units(const ParameterTable& table, double length_m, const ParameterValues& values) {
+  const auto unit = table.find(Role::length_unit);
+  return unit ? length_m / values[*unit] : length_m;
+}
+
 std::string describe_valid_values(const ParameterInfo& row) {
   if (row.scale == Scale::choice && !row.choices.empty()) return describe_choices(row);
   return fmt::format("a {} {}..{}", is_whole(row) ? "whole number" : "number", row.lower, row.upper);
 }
 
-void check_value(const ParameterInfo& row, double value, std::string_view where) {
+bool is_valid_value(const ParameterInfo& row, double value) {
   const bool in_bounds = std::isfinite(value) && value >= row.lower && value <= row.upper;
-  if (in_bounds && (!is_whole(row) || value == std::floor(value))) return;
+  return in_bounds && (!is_whole(row) || value == std::floor(value));
+}
+
+void check_value(const ParameterInfo& row, double value, std::string_view where) {
+  if (is_valid_value(row, value)) return;
   throw_input_error("{}: key '{}': got {}, expected {}", where, row.full_name(), value,
                     describe_valid_values(row));
 }

@@ -1,5 +1,5 @@
 // The parameter table of a model: one row a parameter. Reading presets, validation, the search
-// space, the command line and the docs are all made from it (DESIGN.md, idea 1).
+// space, the command line and the docs are all made from it (docs/architecture.md).
 // A parameter with a value at each level of branching has one row a level: "curve_v[2]".
 #pragma once
 #include <cstddef>
@@ -8,6 +8,9 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <espalier/core/parameter_codec.h>
+#include <espalier/core/parameter_role.h>
 
 namespace espalier {
 
@@ -21,13 +24,6 @@ enum class FlagSides {
   one_measure,   ///< the same measure of two kinds: a count of children, or of children in a fan
   meet_at_zero,  ///< two effects; at zero neither is there
   unrelated      ///< two measures that have nothing in common
-};
-
-/// Values that mean something else from one range to the next, though they run on.
-enum class Regimes {
-  none,
-  taper  ///< under 1 the share by which a stem narrows; to 2 it narrows less, with a round end; then
-         ///< swellings
 };
 
 struct ParameterInfo {
@@ -44,14 +40,16 @@ struct ParameterInfo {
   std::vector<std::string> choices;  ///< names of choices; the value of choice i is first_choice + i
   int first_choice = 0;
   FlagSides sides = FlagSides::unrelated;  ///< where the sign is a flag
-  Regimes regimes = Regimes::none;
+  const ParameterCodec* codec = nullptr;   ///< of a model whose values need one of their own; not owned
   int least_levels = 0;  ///< means nothing to a plant with fewer levels of branching than these
   std::vector<std::string> needs =
       {};  ///< means nothing where all these rows (full names) are 0; none: always means
   std::string mixed_with = {},
-              mixed_by = {};  ///< of a choice: rows of a second choice, and of the share that one has
-  std::string symbol;         ///< the paper's name, where it has another one
-  std::string help;           ///< one line
+              mixed_by = {};         ///< of a choice: rows of a second choice, and of the share that one has
+  RoleOfLevel role = {};             ///< what it is to a fit
+  std::optional<double> plain = {};  ///< its value in a plain tree, whose stems are straight and all alike
+  std::string symbol;                ///< the paper's name, where it has another one
+  std::string help;                  ///< one line
 
   /// "curve_v[2]", or "g_scale" where there is no level.
   std::string full_name() const;
@@ -63,17 +61,27 @@ using ParameterValues = std::vector<double>;
 struct ParameterTable {
   std::string model;  ///< "weber_penn"
   std::vector<ParameterInfo> rows;
-  std::string levels_row = {};   ///< how many levels of branching a plant has; empty where a model has none
-  std::string relaxed_row = {};  ///< the switch that lets relaxable counts be fractions; empty: none
 
   std::optional<std::size_t> find(std::string_view full_name) const;
+  /// The row that bears the role; roles that go by level are of `level`.
+  std::optional<std::size_t> find(Role role, int level = -1) const;
   /// The row index; throws InputError naming the closest known parameter where there is none.
   std::size_t index_of(std::string_view full_name) const;
   ParameterValues defaults() const;
 };
 
+/// Sets the row of this role, if there is one, to the valid value nearest to `value`. False where there is
+/// none.
+bool set_role(const ParameterTable& table, RoleOfLevel role, double value, ParameterValues& values);
+
+/// A length in the units of a plant's lengths: metres, unless a row says how many make a unit of the model's.
+double in_own_units(const ParameterTable& table, double length_m, const ParameterValues& values);
+
 /// What a message expects of a value: "a whole number 1..40", "one of off, on (or 0..1)".
 std::string describe_valid_values(const ParameterInfo& row);
+
+/// Finite, whole where it must be, and inside the bounds.
+bool is_valid_value(const ParameterInfo& row, double value);
 
 /// Throws InputError unless `value` is finite, whole where it must be, and inside the bounds.
 /// `where` opens the message: a file and line, or the command-line option.

@@ -1,6 +1,6 @@
 // Random numbers that belong to places: a draw is a hash of (seed, path of the stem in the tree,
 // purpose, index), with no state. A small change of one parameter then leaves every other draw as
-// it was, and parts of a plant grow in any order with the same bits (DESIGN.md, idea 2).
+// it was, and parts of a plant grow in any order with the same bits (docs/architecture.md).
 // The hash is the finaliser of SplitMix64 (Steele, Lea, Flood 2014).
 #pragma once
 #include <cstdint>

@@ -8,19 +8,19 @@ namespace espalier {
 
 const toml::node& TomlSection::node(std::string_view key) const {
   if (const toml::node* found = table.get(key)) return *found;
-  throw_input_error("{}: key '{}': got nothing, expected it here", toml_location(source, table), key);
+  throw_input_error("{}: {}: got nothing, expected it here", toml_location(source, table), key);
 }
 
 void TomlSection::fail(std::string_view key, std::string_view expected) const {
-  throw_input_error("{}: key '{}': got {}, expected {}", toml_location(source, node(key)), key,
+  throw_input_error("{}: {}: got {}, expected {}", toml_location(source, node(key)), key,
                     describe_toml(node(key)), expected);
 }
 
 void TomlSection::expect_only(const std::vector<std::string>& known) const {
   for (const auto& [key, value] : table)
     if (std::find(known.begin(), known.end(), key.str()) == known.end())
-      throw_input_error("{}: key '{}': got an unknown key, expected one like '{}'",
-                        toml_location(source, value), key.str(), closest_name(std::string(key.str()), known));
+      throw_input_error("{}: {}: got an unknown key, expected one like '{}'", toml_location(source, value),
+                        key.str(), closest_name(std::string(key.str()), known));
 }
 
 std::string TomlSection::text(std::string_view key) const {

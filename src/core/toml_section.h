@@ -16,7 +16,7 @@ struct TomlSection {
 
   bool has(std::string_view key) const { return table.contains(key); }
   const toml::node& node(std::string_view key) const;  ///< which must be there
-  /// The one message of all readers: "FILE:LINE: key 'KEY': got …, expected …".
+  /// The one message of all readers: "FILE:LINE: KEY: got …, expected …".
   [[noreturn]] void fail(std::string_view key, std::string_view expected) const;
   /// Fails for the first key that is none of these, naming the closest.
   void expect_only(const std::vector<std::string>& known) const;

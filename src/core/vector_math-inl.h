@@ -34,7 +34,7 @@ struct SineCosine {
   Vector sine, cosine;
 };
 
-/// Of an angle in degrees: whole quarter turns are taken off without rounding.
+/// Takes an angle in degrees; whole quarter turns are taken off without rounding.
 inline SineCosine sine_cosine_deg(Vector angle_deg) {
   const Floats d;
   const Vector quarters = hn::Round(hn::Mul(angle_deg, set(1.0f / 90)));
@@ -76,7 +76,7 @@ inline Vector arc_tangent2_deg(Vector y, Vector x) {
   return hn::CopySign(angle, y);
 }
 
-/// Of positive numbers that are neither infinite nor subnormal (Cephes: logf.c).
+/// Takes positive numbers that are neither infinite nor subnormal (Cephes: logf.c).
 inline Vector logarithm2(Vector x) {
   const Floats d;
   const hn::RebindToSigned<Floats> di;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kWithin = 0.75f;  ///< of a leaf, or outlines would be bare where stems end
 
-/// By a point near its tip and by its middle's two ends, where the outlines of leaves are widest.
+/// Judged by a point near its tip and by its middle's two ends, where the outlines of leaves are widest.
 bool fits(const Volume& volume, const Leaves& leaves, std::size_t i, float scale) {
   const Vec3 along = leaves.axis[i] * (scale * kWithin * leaves.length_m[i]);
   const Vec3 across = leaves.side[i] * (0.5f * scale * kWithin * leaves.width_m[i]);

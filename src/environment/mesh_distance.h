@@ -13,7 +13,7 @@ class MeshDistance {
   MeshDistance(const MeshDistance&) = delete;
   MeshDistance& operator=(const MeshDistance&) = delete;
 
-  /// To the nearest point of the surface, unsigned. Safe to call from several threads at once.
+  /// The unsigned distance to the nearest point of the surface. Safe to call from several threads at once.
   float to_surface_m(Vec3 point_m) const;
 
  private:

@@ -9,7 +9,8 @@ struct PictureField {
   int width_px = 0, height_px = 0;
   std::vector<float> values;  ///< row by row from the top
 
-  /// Between the middles of pixels linear, beyond the picture what its border has. Positions in pixels.
+  /// The value is linear between the middles of pixels and, beyond the picture, that of its border. Positions
+  /// in pixels.
   double at(double x_px, double y_px) const;
 };
 

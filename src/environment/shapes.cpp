@@ -79,7 +79,7 @@ class Ellipsoid final : public Volume {
  public:
   Ellipsoid(Vec3 center_m, Vec3 radius_m) : center_m_(center_m), radius_m_(radius_m) {}
   bool contains(Vec3 p) const override { return signed_distance_m(p) <= 0; }
-  /// To first order: f/|∇f| of f = |p/r| − 1.
+  /// The distance to first order: f/|∇f| of f = |p/r| − 1.
   float signed_distance_m(Vec3 p) const override {
     const Vec3 d = p - center_m_;
     const Vec3 unit{d.x / radius_m_.x, d.y / radius_m_.y, d.z / radius_m_.z};

@@ -37,7 +37,7 @@ class Spiral final : public Volume {
     return shape_.height_m * (1 - scale(turn)) / (1 - scale(shape_.turns));
   }
 
-  /// To the round end of the tube.
+  /// The distance to the round end of the tube.
   double end_distance_m(Vec3 p, double turn) const {
     const double angle = 2 * std::numbers::pi * turn, r = scale(turn) * shape_.radius_m;
     return std::hypot(p.x - r * std::cos(angle), p.y - r * std::sin(angle), p.z - height_m(turn)) -

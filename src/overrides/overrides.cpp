@@ -13,7 +13,7 @@ struct QuantityRow {
   double lower, upper;  ///< of values that replace the model's
 };
 
-/// In the order of Quantity.
+/// What quantities are called, in the order of Quantity.
 constexpr QuantityRow kQuantities[] = {
     {"length", 0, 1000},     {"position", 0, 1},         {"down_angle", -360, 360},
     {"rotation", -720, 720}, {"curvature", -1440, 1440}, {"curvature_back", -1440, 1440},

@@ -7,7 +7,8 @@
 
 namespace espalier {
 
-/// At most this many colours: more are rounded to fewer bits a channel, until they are no more than that.
+/// A mesh has at most this many colours: more are rounded to fewer bits a channel, until they are no more
+/// than that.
 inline constexpr std::size_t kMostColors = 256;
 
 /// Vertices that triangles of two colours share are doubled, and triangles keep their order. A mesh without

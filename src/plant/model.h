@@ -1,8 +1,10 @@
-// A model: a parameter table and a pure function from (values, seed) to a plant (DESIGN.md, idea 1).
+// A model: a parameter table and a pure function from (values, seed) to a plant (docs/architecture.md).
 #pragma once
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <espalier/core/parameter_table.h>
 #include <espalier/core/random.h>
@@ -41,6 +43,7 @@ struct GrowthSettings {
 /// How large the plant of these values is expected to get, without growing it.
 struct GrowthEstimate {
   double stems = 0, leaves = 0;
+  bool is_known = true;  ///< false where only growing the plant tells
 };
 
 /// Grown, or refused with the factor by which the worst of stems and leaves exceeds its budget.
@@ -76,6 +79,8 @@ class Model {
     (void)values;
     return {};
   }
+  /// Names of bundled presets that are trees of one trunk with fronds, the most typical one first.
+  virtual std::vector<std::string> palm_presets() const { return {}; }
   virtual GrowthEstimate estimate(std::span<const double> values) const = 0;
   /// Grows into `plant`, whose memory is reused. `values` follow table(); they must be valid.
   virtual GrowthResult generate(std::span<const double> values, Seed seed, const GrowthSettings& settings,

@@ -22,6 +22,8 @@ class WeberPennModel : public Model {
   bool has_branch_paths() const override { return true; }
   bool can_train() const override { return true; }
 
+  std::vector<std::string> palm_presets() const override { return {"palm", "fan_palm"}; }
+
   BranchLimits branch_limits(std::span<const double> values) const override {
     const WeberPennParameters p = weber_penn_parameters(values);
     return {p.level_count(), static_cast<std::uint32_t>(std::max(1.f, p.branches[0]))};

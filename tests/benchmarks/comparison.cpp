@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include <espalier/image/measures/compare.h>
+#include <espalier/image/measures/objective.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 #include <espalier/render/scanlines/scanline_renderer.h>

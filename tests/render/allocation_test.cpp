@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-#include <espalier/image/measures/compare.h>
+#include <espalier/image/measures/objective.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 #include <espalier/render/grow_and_draw.h>

@@ -139,6 +139,34 @@ TEST(Growth, ABareTrunkIsAsHighAsItsScaleAndAsThickAsItsRatio) {
   EXPECT_NEAR(plant.knots.radius_m.front(), 13 * 0.015, 1e-5);
 }
 
+TEST(Growth, RadiusModScalesTheTrunksRadius) {
+  ParameterValues values = bare_trunk();
+  set(values, "radius_mod[0]", 0.5);
+  EXPECT_NEAR(grow(values).knots.radius_m.front(), 0.5 * 13 * 0.015, 1e-5);
+}
+
+/// On a cylinder, where no stem is as thick as its parent; but for those as thin as a stem gets.
+TEST(Growth, RadiusModScalesTheRadiusOfItsLevel) {
+  ParameterValues values = bare_trunk();
+  set(values, "levels", 2);
+  set(values, "taper[0]", 0);
+  const Plant whole = grow(values);
+  set(values, "radius_mod[1]", 0.5);
+  const Plant half = grow(values);
+  ASSERT_EQ(whole.stems.path_key, half.stems.path_key);
+  EXPECT_EQ(half.knots.radius_m.front(), whole.knots.radius_m.front());
+  int halved = 0;
+  for (std::size_t stem = 1; stem < whole.stems.size(); ++stem) {
+    const float before_m = whole.knots.radius_m[whole.stems.first_knot[stem]],
+                after_m = half.knots.radius_m[half.stems.first_knot[stem]];
+    if (after_m > 0.0051f) {
+      EXPECT_NEAR(after_m / before_m, 0.5, 1e-3) << stem;
+      ++halved;
+    }
+  }
+  EXPECT_GT(halved, 10);
+}
+
 TEST(Growth, NegativeLeafNumbersAreAFanOfThatManyAtEachTip) {
   ParameterValues values = aspen();
   set(values, "leaf_blos_num", -7);
@@ -184,6 +212,18 @@ TEST(Growth, NegativeBaseSplitsAreARandomNumberUpToThatMany) {
   EXPECT_GT(seen[1], 5);
   EXPECT_GT(seen[2], 5);
   EXPECT_EQ(seen[3], 0);
+}
+
+/// Stems with the same key would bend and branch alike.
+TEST(Growth, NoTwoStemsShareTheirRandomNumbers) {
+  ParameterValues values = aspen();
+  set(values, "base_splits", 3);
+  set(values, "seg_splits[1]", 0.8);
+  Plant plant = grow(values);
+  std::vector<std::uint64_t>& keys = plant.stems.path_key;
+  ASSERT_GT(keys.size(), 100u);
+  std::sort(keys.begin(), keys.end());
+  EXPECT_EQ(std::adjacent_find(keys.begin(), keys.end()), keys.end());
 }
 
 TEST(Growth, FlatSplitsStayInThePlaneOfTheStem) {

@@ -32,8 +32,8 @@ struct Setting {
 
   explicit Setting(const BenchCase& of)
       : preset(load_preset(of.species)), model(model_by_name(preset.model)) {
-    for (const auto& [name, value] : of.changes) preset.values[*model.table().find(name)] = value;
-    if (!of.leaves) preset.values[*model.table().find("leaf_blos_num")] = 0;
+    for (const auto& [role, value] : of.changes) set_role(model.table(), role, value, preset.values);
+    if (!of.leaves) set_role(model.table(), {Role::leaf_count}, 0, preset.values);
     Plant plant;
     model.generate(preset.values, kTargetSeed, {}, plant);
     camera = frame_bounds(bounds(plant), {}, of.size_px, of.size_px);
@@ -145,9 +145,13 @@ void count_differing(const Setting& setting, BenchResult& result) {
 
 }  // namespace
 
+std::vector<std::string> bench_species() {
+  return {"quaking_aspen", "lombardy_poplar", "small_pine", "palm", "weeping_willow"};
+}
+
 std::vector<BenchCase> bench_cases() {
   std::vector<BenchCase> cases;
-  for (const char* species : {"quaking_aspen", "lombardy_poplar", "small_pine", "palm", "weeping_willow"})
+  for (const std::string& species : bench_species())
     for (const int size_px : {128, 256, 512})
       for (const bool leaves : {true, false}) cases.push_back({species, size_px, leaves, {}});
   return cases;

@@ -2,9 +2,11 @@
 // on all, and how far the drawn picture is from Embree's. Seconds, bytes and pixels.
 #pragma once
 #include <cstddef>
-#include <map>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <espalier/core/parameter_role.h>
 
 namespace espalier {
 
@@ -12,7 +14,7 @@ struct BenchCase {
   std::string species;
   int size_px = 256;
   bool leaves = true;
-  std::map<std::string, double> changes = {};  ///< parameters set to other values than the preset's
+  std::vector<std::pair<RoleOfLevel, double>> changes = {};  ///< values that are not the preset's
 };
 
 struct BenchResult {
@@ -24,7 +26,10 @@ struct BenchResult {
   std::size_t differing_px = 0, set_px = 0;      ///< from Embree's picture of the first plant, and in it
 };
 
-/// Aspen, poplar, pine, palm and willow, 128², 256² and 512², with and without leaves.
+/// Presets that are measured: aspen, poplar, pine, palm and willow.
+std::vector<std::string> bench_species();
+
+/// Each species at 128², 256² and 512², with and without leaves.
 std::vector<BenchCase> bench_cases();
 
 /// Measures for about `seconds` on one thread and as long on `threads`, if that is more than one. Every

@@ -12,7 +12,7 @@ namespace espalier {
 std::string bench_table_head(int threads);
 std::string bench_table_row(const BenchResult& result);
 
-/// With the description of the machine: processor, threads, instruction set, versions.
+/// The report also describes the machine: processor, threads, instruction set, versions.
 std::string bench_to_json(const std::vector<BenchResult>& results, const std::vector<ScalingSeries>& scaling,
                           int threads);
 

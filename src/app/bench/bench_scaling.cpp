@@ -15,12 +15,12 @@ constexpr const char* kSpecies = "quaking_aspen";
 constexpr std::array<double, 5> kFactors{0.25, 0.5, 1, 2, 4};
 
 /// `quantity` is read off the result where the setting does not say it.
-ScalingSeries measure_factors(const char* name, double seconds, bool leaves, const char* parameter,
+ScalingSeries measure_factors(const char* name, double seconds, bool leaves, RoleOfLevel role,
                               double preset_value, double BenchResult::*quantity) {
   ScalingSeries series{name, {}};
   for (const double factor : kFactors) {
     const BenchResult result =
-        run_bench({kSpecies, 256, leaves, {{parameter, preset_value * factor}}}, seconds, 1);
+        run_bench({kSpecies, 256, leaves, {{role, preset_value * factor}}}, seconds, 1);
     series.points.emplace_back(result.*quantity, 1 / result.per_second);
   }
   return series;
@@ -47,8 +47,8 @@ constexpr std::array<Rgb, 4> kColors{Rgb{0, 114, 178}, Rgb{0, 158, 115}, Rgb{213
 }  // namespace
 
 std::vector<ScalingSeries> measure_scaling(double seconds, int threads) {
-  return {measure_factors("stems", seconds, false, "branches[2]", 30, &BenchResult::stems),
-          measure_factors("leaves", seconds, true, "leaf_blos_num", 40, &BenchResult::leaf_count),
+  return {measure_factors("stems", seconds, false, {Role::branch_count, 2}, 30, &BenchResult::stems),
+          measure_factors("leaves", seconds, true, {Role::leaf_count}, 40, &BenchResult::leaf_count),
           measure_pixels(seconds), measure_threads(seconds, threads)};
 }
 

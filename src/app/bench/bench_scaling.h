@@ -15,7 +15,7 @@ struct ScalingSeries {
   std::vector<std::pair<double, double>> points;  ///< the quantity, and seconds for each evaluation
 };
 
-/// Of the quaking aspen: bare with more and more stems, then with leaves, in larger pictures, on more
+/// Measures the quaking aspen: bare with more and more stems, then with leaves, in larger pictures, on more
 /// threads. Each point takes about `seconds`.
 std::vector<ScalingSeries> measure_scaling(double seconds, int threads);
 

@@ -1,5 +1,5 @@
 // espalier bench: how fast evaluations are on this machine, and where their time goes.
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <omp.h>
 
 #include <CLI/CLI.hpp>
@@ -23,7 +23,7 @@ struct BenchOptions {
   std::string json, compare, only, plot;
 };
 
-/// As SVG, or as PNG where the name ends so.
+/// Writes SVG, or PNG where the name ends so.
 void write_plot(const std::filesystem::path& path, const LineChart& chart) {
   if (path.extension() == ".png")
     write_png(path, chart_to_picture(chart));
@@ -40,9 +40,8 @@ void run_bench_command(const BenchOptions& options) {
   std::erase_if(cases,
                 [&](const BenchCase& c) { return !options.only.empty() && c.species != options.only; });
   if (cases.empty())
-    throw_input_error(
-        "--species: got '{}', expected quaking_aspen, lombardy_poplar, small_pine, palm or weeping_willow",
-        options.only);
+    throw_input_error("--species: got '{}', expected one of: {}", options.only,
+                      fmt::join(bench_species(), ", "));
   const int threads = omp_get_num_procs();
   fmt::print("{}", bench_table_head(threads));
   std::vector<BenchResult> results;

@@ -10,6 +10,7 @@
 #include <espalier/app/commands/commands.h>
 #include <espalier/app/options/target_options.h>
 #include <espalier/image/measures/compare.h>
+#include <espalier/image/measures/metrics_json.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/image/reading/read_target.h>
 
@@ -40,28 +41,17 @@ void print_text(const CompareOptions& options, const MaskPair& pair, const MaskM
   fmt::print("target              {}: {}\n", options.target, pair.target.how);
   fmt::print("compared            {}×{} px, {}\n", pair.target.mask.width_px(), pair.target.mask.height_px(),
              pair.framed ? "framed" : "as they are");
-  fmt::print("pixel_accuracy      {:.6f}\n", metrics.pixel_accuracy);
-  fmt::print("iou                 {:.6f}\n", metrics.iou);
-  fmt::print("dice                {:.6f}\n", metrics.dice);
-  fmt::print("tolerant_iou        {:.6f}\n", metrics.tolerant_iou);
-  fmt::print("outline_iou         {:.6f}\n", metrics.outline_iou);
-  fmt::print("gap_iou             {:.6f}\n", metrics.gap_iou);
-  fmt::print("truncated_distance  {:.6f}\n", metrics.truncated_distance);
+  for (std::size_t row = 0; row < kMetricCount; ++row)
+    fmt::print("{:<19} {:.6f}\n", kMetrics[row].name, metrics.values[row]);
 }
 
 void print_json(const CompareOptions& options, const MaskPair& pair, const MaskMetrics& metrics) {
-  const nlohmann::ordered_json json = {{"candidate", options.candidate},
-                                       {"target", options.target},
-                                       {"width_px", pair.target.mask.width_px()},
-                                       {"height_px", pair.target.mask.height_px()},
-                                       {"framed", pair.framed},
-                                       {"pixel_accuracy", metrics.pixel_accuracy},
-                                       {"iou", metrics.iou},
-                                       {"dice", metrics.dice},
-                                       {"tolerant_iou", metrics.tolerant_iou},
-                                       {"outline_iou", metrics.outline_iou},
-                                       {"gap_iou", metrics.gap_iou},
-                                       {"truncated_distance", metrics.truncated_distance}};
+  nlohmann::ordered_json json = {{"candidate", options.candidate},
+                                 {"target", options.target},
+                                 {"width_px", pair.target.mask.width_px()},
+                                 {"height_px", pair.target.mask.height_px()},
+                                 {"framed", pair.framed}};
+  json.update(nlohmann::ordered_json(metrics));
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
@@ -72,10 +62,19 @@ void run_compare(const CompareOptions& options, const TargetOptions& reading) {
   (options.json ? print_json : print_text)(options, pair, metrics);
 }
 
+std::string help_of_measures() {
+  std::string help = "Measures:\n";
+  for (const Metric& metric : kMetrics)
+    help += fmt::format("  {:<19} {} ({} is better)\n", metric.name, metric.help,
+                        metric.better == Better::larger ? "larger" : "smaller");
+  return help;
+}
+
 }  // namespace
 
 void add_compare_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("compare", "Print all measures of two pictures");
+  command->footer(help_of_measures());
   const auto options = std::make_shared<CompareOptions>();
   command->add_option("candidate", options->candidate, "a picture")->required();
   command->add_option("target", options->target, "the picture to compare it with")->required();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -55,6 +56,15 @@ void print_outcome(const ExperimentOutcome& outcome, const fs::path& directory, 
                (directory / "results.csv").string(), duration(seconds), directory.string());
 }
 
+/// No result at all is a failure of the whole.
+void check_outcome(const ExperimentOutcome& outcome, const fs::path& directory) {
+  const auto has_failed = [](const RunRow& row) { return row.status == "failed"; };
+  if (outcome.rows.empty() || !std::all_of(outcome.rows.begin(), outcome.rows.end(), has_failed)) return;
+  fmt::print(stderr, "espalier: {}: all {} runs failed, the first with: {}\n", directory.string(),
+             outcome.rows.size(), outcome.rows.front().error);
+  throw CLI::RuntimeError(1);
+}
+
 void run_runs(const RunArguments& arguments) {
   Experiment experiment = read_experiment(arguments.file, arguments.settings);
   if (experiment.fits) experiment.fits->record.versions = recorded_versions();
@@ -73,6 +83,7 @@ void run_runs(const RunArguments& arguments) {
   line.end();
   if (!arguments.quiet)
     print_outcome(outcome, directory, std::chrono::duration<double>(Clock::now() - began).count());
+  check_outcome(outcome, directory);
 }
 
 void make_report(const std::string& directory) {

@@ -10,7 +10,8 @@
 #include <espalier/app/growth_frames.h>
 #include <espalier/app/options/plant_options.h>
 #include <espalier/app/options/view_options.h>
-#include <espalier/core/error.h>
+#include <espalier/core/assignment.h>
+#include <espalier/core/field_error.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/lsystem/derivation/derivation.h>
 #include <espalier/lsystem/drawing/plant_builder.h>
@@ -35,25 +36,11 @@ struct LsystemOptions {
   lsystem::Limits limits;
 };
 
-/// --set name=value
-void assign(const std::string& assignment, const ParameterTable& table, ParameterValues& values) {
-  const std::size_t equals = assignment.find('=');
-  if (equals == std::string::npos) throw_input_error("--set {}: expected name=value", assignment);
-  const std::size_t row = table.index_of(assignment.substr(0, equals));
-  const std::string text = assignment.substr(equals + 1);
-  char* stop = nullptr;
-  values[row] = std::strtod(text.c_str(), &stop);
-  if (text.empty() || *stop != 0) throw_input_error("--set {}: '{}' is not a number", assignment, text);
-  check_value(table.rows[row], values[row], "--set " + assignment);
-}
-
 /// --volume name=text, metres.
 void replace_volume(const std::string& assignment, double unit_m, lsystem::Derivation& derivation) {
-  const std::size_t equals = assignment.find('=');
-  if (equals == std::string::npos) throw_input_error("--volume {}: expected name=volume", assignment);
-  VolumePtr volume = read_volume(assignment.substr(equals + 1));
-  derivation.replace_volume(assignment.substr(0, equals),
-                            make_scaled(static_cast<float>(1 / unit_m), std::move(volume)));
+  const Assignment given = in_field("volume", [&] { return parse_assignment(assignment); });
+  VolumePtr volume = read_volume(given.value);
+  derivation.replace_volume(given.name, make_scaled(static_cast<float>(1 / unit_m), std::move(volume)));
 }
 
 void draw(const Plant& plant, const Camera& camera, const LsystemOptions& options, const std::string& path) {
@@ -95,7 +82,7 @@ void run_lsystem(const LsystemOptions& options) {
   check_options(options);
   const lsystem::Grammar grammar = lsystem::load_grammar(options.file);
   ParameterValues values = grammar.parameters.defaults();
-  for (const std::string& assignment : options.assignments) assign(assignment, grammar.parameters, values);
+  set_parameters(options.assignments, grammar.parameters, values);
   lsystem::Derivation derivation(grammar, options.limits);
   derivation.start(values, options.seed);
   const double unit_m = derivation.settings().unit_m;

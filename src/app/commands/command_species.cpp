@@ -24,7 +24,7 @@ struct SpeciesOptions {
 /// "13 ± 3 m": the height of the tree, where the model has one.
 std::string height_text(const Preset& preset) {
   const ParameterTable& table = model_by_name(preset.model).table();
-  const auto height = table.find("g_scale"), variation = table.find("g_scale_v");
+  const auto height = table.find(Role::tree_scale), variation = table.find(Role::tree_scale_variation);
   if (!height || !variation) return "";
   return fmt::format("{} ± {} m", preset.values[*height], preset.values[*variation]);
 }

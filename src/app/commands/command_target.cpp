@@ -30,7 +30,7 @@ std::string reading_in_words(const PictureReading& reading) {
   return fmt::format(
       "a {} tree{}: trunk {:.3f} wide, foot {:.3f}, crown {:.2f} wide from {:.2f} up (shares of its height); "
       "{:.0f} % of its outline and {:.0f} % of its convex hull covered; {} at the foot",
-      kind_name(reading.kind), stand_in_words(reading), reading.trunk_width, reading.foot_width,
+      name_of(reading.kind), stand_in_words(reading), reading.trunk_width, reading.foot_width,
       reading.crown_width, reading.crown_base, 100 * reading.cover, 100 * reading.hull_cover,
       reading.trunks == 1 ? "1 trunk" : fmt::format("{} trunks", reading.trunks));
 }

@@ -9,8 +9,9 @@
 
 #include <espalier/app/commands/commands.h>
 #include <espalier/app/main/program.h>
+#include <espalier/app/options/option_names.h>
 #include <espalier/app/version.h>
-#include <espalier/core/error.h>
+#include <espalier/core/field_error.h>
 
 namespace espalier {
 
@@ -42,6 +43,7 @@ int run_program(int argc, const char* const* argv) {
   add_space_command(app);
   add_blend_command(app);
   add_params_command(app);
+  add_reference_command(app);
   add_completion_command(app);
   try {
     app.parse(argc, argv);
@@ -52,6 +54,9 @@ int run_program(int argc, const char* const* argv) {
     return ended.get_exit_code();  // a command that has said why
   } catch (const CLI::ParseError& error) {
     print_error(fmt::format("{} (try: espalier --help)", error.what()));
+    return 2;
+  } catch (const FieldError& error) {
+    print_error(fmt::format("{}: {}", option_of(error.field), error.complaint));
     return 2;
   } catch (const InputError& error) {
     print_error(error.what());

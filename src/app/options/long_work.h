@@ -11,7 +11,7 @@ namespace espalier {
 void watch_for_interrupt();
 bool is_interrupted();
 
-/// On stderr: one line that is written over on a terminal, a plain line now and then elsewhere.
+/// Progress on stderr: one line that is written over on a terminal, a plain line now and then elsewhere.
 class ProgressLine {
  public:
   /// plain_pause_s: between two lines where there is no terminal.

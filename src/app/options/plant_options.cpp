@@ -1,9 +1,9 @@
 // Options of commands that grow one plant: preset, seed, changed parameters, pruning volume.
 #include <CLI/CLI.hpp>
-#include <charconv>
 
 #include <espalier/app/options/plant_options.h>
-#include <espalier/core/error.h>
+#include <espalier/core/assignment.h>
+#include <espalier/core/field_error.h>
 #include <espalier/environment/volume.h>
 #include <espalier/lsystem/derivation/derivation.h>
 #include <espalier/lsystem/files/bundled.h>
@@ -15,36 +15,22 @@ namespace espalier {
 
 namespace {
 
-double parse_value(std::string_view text, const std::string& assignment) {
-  double value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size())
-    throw_input_error("--set {}: '{}' is not a number", assignment, text);
-  return value;
-}
-
-/// A number, or the name of one of the row's choices.
-double value_of(const ParameterInfo& row, std::string_view text, const std::string& assignment) {
-  for (std::size_t i = 0; i < row.choices.size(); ++i)
-    if (row.choices[i] == text) return row.first_choice + static_cast<double>(i);
-  return parse_value(text, assignment);
-}
-
-void assign(const std::string& assignment, const ParameterTable& table, ParameterValues& values) {
-  const std::size_t equals = assignment.find('=');
-  if (equals == std::string::npos) throw_input_error("--set {}: expected name=value", assignment);
-  const std::size_t row = table.index_of(assignment.substr(0, equals));
-  const std::string_view text = std::string_view(assignment).substr(equals + 1);
-  values[row] = value_of(table.rows[row], text, assignment);
-  check_value(table.rows[row], values[row], "--set " + assignment);
-}
-
 /// CLI11 would read -1 as the largest number there is.
 std::string reject_negative(const std::string& text) {
   return text.starts_with('-') ? "got " + text + ", expected a whole number from 0" : "";
 }
 
 }  // namespace
+
+void set_parameters(const std::vector<std::string>& assignments, const ParameterTable& table,
+                    ParameterValues& values) {
+  for (const std::string& text : assignments)
+    in_field("set", [&] {
+      const Assignment assignment = parse_assignment(text);
+      const std::size_t row = table.index_of(assignment.name);
+      values[row] = parse_parameter_value(table.rows[row], assignment.value);
+    });
+}
 
 void add_plant_options(CLI::App& command, PlantOptions& options) {
   command.add_option("preset", options.preset, "a bundled preset (see: espalier species) or a TOML file")
@@ -74,7 +60,7 @@ std::unique_ptr<Volume> read_volume(const std::string& text) {
 Plant grow_plant(const PlantOptions& options) {
   Preset preset = load_preset(options.preset);
   const Model& model = model_by_name(preset.model);
-  for (const std::string& assignment : options.assignments) assign(assignment, model.table(), preset.values);
+  set_parameters(options.assignments, model.table(), preset.values);
   const std::unique_ptr<Volume> volume =
       options.prune_to.empty() ? envelope_of(preset.grown_into) : read_volume(options.prune_to);
   GrowthSettings settings;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <espalier/core/parameter_table.h>
 #include <espalier/core/random.h>
 #include <espalier/environment/volume.h>
 #include <espalier/plant/plant.h>
@@ -24,6 +25,10 @@ struct PlantOptions {
 
 /// Adds the positional PRESET and the options --seed, --set and --prune-to to a command.
 void add_plant_options(CLI::App& command, PlantOptions& options);
+
+/// Sets what "name=value" says, in order. Throws FieldError for unknown names and values out of bounds.
+void set_parameters(const std::vector<std::string>& assignments, const ParameterTable& table,
+                    ParameterValues& values);
 
 /// A volume as text (environment/volume.h), or "FILE.lsys:NAME", one that an L-system declares, with its
 /// default parameters. Metres. Throws InputError.

@@ -2,6 +2,7 @@
 #include <string>
 
 #include <espalier/app/options/target_options.h>
+#include <espalier/core/field_error.h>
 
 namespace espalier {
 
@@ -9,12 +10,18 @@ std::shared_ptr<TargetOptions> add_target_options(CLI::App& command) {
   const auto options = std::make_shared<TargetOptions>();
   command
       .add_option_function<std::string>(
-          "--method", [options](const std::string& text) { options->method = parse_separation_method(text); },
+          "--method",
+          [options](const std::string& text) {
+            options->method = in_field("method", [&] { return parse_name<SeparationMethod>(text); });
+          },
           "what tells the tree from the background: auto, alpha, luminance, background")
       ->default_str("auto");
   command
       .add_option_function<std::string>(
-          "--side", [options](const std::string& text) { options->side = parse_tree_side(text); },
+          "--side",
+          [options](const std::string& text) {
+            options->side = in_field("side", [&] { return parse_name<TreeSide>(text); });
+          },
           "which side of the threshold is the tree: auto, light (opaque), dark (transparent)")
       ->default_str("auto");
   command

@@ -12,7 +12,7 @@ struct MaskBox {
 
   int width() const { return right - left; }
   int height() const { return bottom - top; }
-  /// As many rows as this share of its height, rounded.
+  /// How many rows this share of its height is, rounded.
   int rows(double share) const { return static_cast<int>(std::lround(share * height())); }
   bool is_empty() const { return width() <= 0 || height() <= 0; }
 };

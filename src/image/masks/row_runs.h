@@ -10,13 +10,13 @@ struct Run {
   int first = 0, last = -1;  ///< columns, both inside
 
   int width() const { return last - first + 1; }
-  /// Between the outer edges of its pixels.
+  /// The middle between the outer edges of its pixels.
   float middle() const { return 0.5f * static_cast<float>(first + last + 1); }
-  /// Of rows one above the other: a pixel of one has a neighbour, also a diagonal one, in the other.
+  /// Whether, in rows one above the other, a pixel of one has a neighbour, also a diagonal one, in the other.
   bool touches(const Run& other) const { return first <= other.last + 1 && last >= other.first - 1; }
 };
 
-/// From left to right.
+/// The runs of a row from left to right.
 std::vector<Run> runs_of(const Mask& mask, int y);
 
 /// The first of the widest; of no width in an empty row.

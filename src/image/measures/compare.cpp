@@ -30,12 +30,7 @@ double gap_iou(const Mask& outline, const Mask& gaps, const Mask& candidate) {
   return in_any == 0 ? 1 : static_cast<double>(in_both) / static_cast<double>(in_any);
 }
 
-/// Numbers of pixels from which the plain measures follow.
-struct Counts {
-  std::size_t all = 0, in_a = 0, in_b = 0, in_both = 0;
-};
-
-Counts count_pixels(const Mask& a, const Mask& b) {
+PixelCounts count_pixels(const Mask& a, const Mask& b) {
   check_same_size(a, b);
   return {static_cast<std::size_t>(a.width_px()) * a.height_px(), count_bits(a.words()),
           count_bits(b.words()), count_and(a.words(), b.words())};
@@ -46,12 +41,12 @@ double share(std::size_t part, std::size_t whole, double if_nothing) {
   return whole == 0 ? if_nothing : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-double pixel_accuracy(const Counts& n) {
-  const std::size_t differing = n.in_a + n.in_b - 2 * n.in_both;
+double pixel_accuracy(const PixelCounts& n) {
+  const std::size_t differing = n.in_candidate + n.in_target - 2 * n.in_both;
   return share(n.all - differing, n.all, 1);
 }
-double iou(const Counts& n) { return share(n.in_both, n.in_a + n.in_b - n.in_both, 1); }
-double dice(const Counts& n) { return share(2 * n.in_both, n.in_a + n.in_b, 1); }
+double iou(const PixelCounts& n) { return share(n.in_both, n.in_candidate + n.in_target - n.in_both, 1); }
+double dice(const PixelCounts& n) { return share(2 * n.in_both, n.in_candidate + n.in_target, 1); }
 
 /// Set pixels of each 8×8 block. Eight counts, each at most 64, are summed in the bytes of one word.
 std::vector<std::uint8_t> count_blocks(const Mask& mask) {
@@ -81,69 +76,34 @@ double block_iou(const std::vector<std::uint8_t>& a, const std::vector<std::uint
 int larger_side_px(const Mask& mask) { return std::max(mask.width_px(), mask.height_px()); }
 
 /// (sum over a / |a| + sum over b / |b|) / 2K
-double truncated_distance(const Counts& n, std::size_t sum_over_a_px, std::size_t sum_over_b_px,
+double truncated_distance(const PixelCounts& n, std::size_t sum_over_a_px, std::size_t sum_over_b_px,
                           int limit_px) {
-  if (n.in_a == 0 && n.in_b == 0) return 0;
-  if (n.in_a == 0 || n.in_b == 0) return 1;
-  return (share(sum_over_a_px, n.in_a, 0) + share(sum_over_b_px, n.in_b, 0)) / (2.0 * limit_px);
-}
-
-double truncated_distance(const Counts& n, const Mask& candidate, const PreparedTarget& target) {
-  const int limit_px = distance_limit_px(larger_side_px(candidate));
-  return truncated_distance(n, sum_distances_px(candidate, target.distance_bits()),
-                            sum_distances_px(target.mask(), candidate, limit_px), limit_px);
-}
-
-// What each term of an objective adds, 0 best.
-using TermFunction = double (*)(const Counts&, const Mask& candidate, const PreparedTarget&);
-
-double pixel_difference_term(const Counts& n, const Mask&, const PreparedTarget&) {
-  return 1 - pixel_accuracy(n);
-}
-double iou_term(const Counts& n, const Mask&, const PreparedTarget&) { return 1 - iou(n); }
-double dice_term(const Counts& n, const Mask&, const PreparedTarget&) { return 1 - dice(n); }
-double tolerant_iou_term(const Counts&, const Mask& candidate, const PreparedTarget& target) {
-  return 1 - block_iou(count_blocks(candidate), target.block_counts());
-}
-double outline_iou_term(const Counts&, const Mask& candidate, const PreparedTarget& target) {
-  return 1 - iou(count_pixels(outline_of(candidate), target.outline()));
-}
-
-double gap_iou_term(const Counts&, const Mask& candidate, const PreparedTarget& target) {
-  return 1 - gap_iou(target.outline(), target.gaps(), candidate);
-}
-
-struct TermRow {
-  const char* name;
-  TermFunction evaluate;
-};
-
-constexpr TermRow kTerms[] = {
-    {"pixel_difference", pixel_difference_term},
-    {"pixel_accuracy", pixel_difference_term},
-    {"iou", iou_term},
-    {"dice", dice_term},
-    {"tolerant_iou", tolerant_iou_term},
-    {"outline_iou", outline_iou_term},
-    {"gap_iou", gap_iou_term},
-    {"truncated_distance", truncated_distance},
-};
-
-const TermRow& find_term(const std::string& name) {
-  for (const TermRow& row : kTerms)
-    if (name == row.name) return row;
-  throw InternalError("no objective is named " + name);
-}
-
-/// Counts against a prepared target, whose own area is known.
-Counts count_pixels(const Mask& candidate, const PreparedTarget& target) {
-  check_same_size(candidate, target.mask());
-  return {static_cast<std::size_t>(candidate.width_px()) * candidate.height_px(),
-          count_bits(candidate.words()), target.set_pixels(),
-          count_and(candidate.words(), target.mask().words())};
+  if (n.in_candidate == 0 && n.in_target == 0) return 0;
+  if (n.in_candidate == 0 || n.in_target == 0) return 1;
+  return (share(sum_over_a_px, n.in_candidate, 0) + share(sum_over_b_px, n.in_target, 0)) / (2.0 * limit_px);
 }
 
 }  // namespace
+
+double pixel_accuracy(const Comparison& pair) { return pixel_accuracy(pair.pixels); }
+double iou(const Comparison& pair) { return iou(pair.pixels); }
+double dice(const Comparison& pair) { return dice(pair.pixels); }
+
+double tolerant_iou(const Comparison& pair) {
+  return block_iou(count_blocks(pair.candidate), pair.target.block_counts());
+}
+
+double outline_iou(const Comparison& pair) { return iou(outline_of(pair.candidate), pair.target.outline()); }
+
+double gap_iou(const Comparison& pair) {
+  return gap_iou(pair.target.outline(), pair.target.gaps(), pair.candidate);
+}
+
+double truncated_distance(const Comparison& pair) {
+  const int limit_px = distance_limit_px(larger_side_px(pair.candidate));
+  return truncated_distance(pair.pixels, sum_distances_px(pair.candidate, pair.target.distance_bits()),
+                            sum_distances_px(pair.target.mask(), pair.candidate, limit_px), limit_px);
+}
 
 double pixel_accuracy(const Mask& a, const Mask& b) { return pixel_accuracy(count_pixels(a, b)); }
 double iou(const Mask& a, const Mask& b) { return iou(count_pixels(a, b)); }
@@ -166,7 +126,7 @@ double gap_iou(const Mask& candidate, const Mask& target) {
 }
 
 double truncated_distance(const Mask& a, const Mask& b) {
-  const Counts n = count_pixels(a, b);
+  const PixelCounts n = count_pixels(a, b);
   const int limit_px = distance_limit_px(larger_side_px(a));
   return truncated_distance(n, sum_distances_px(a, b, limit_px), sum_distances_px(b, a, limit_px), limit_px);
 }
@@ -177,21 +137,24 @@ Mask outline_of(const Mask& mask) {
   return fill_holes(close_disc(mask, std::max(1, larger_side_px(mask) / 64)));
 }
 
-MaskMetrics compare_masks(const Mask& a, const Mask& b) {
-  const Counts n = count_pixels(a, b);
-  return {pixel_accuracy(n),        iou(n),       dice(n), tolerant_iou(a, b), outline_iou(a, b),
-          truncated_distance(a, b), gap_iou(a, b)};
+Comparison make_comparison(const Mask& candidate, const PreparedTarget& target) {
+  check_same_size(candidate, target.mask());
+  return {
+      candidate,
+      target,
+      {static_cast<std::size_t>(candidate.width_px()) * candidate.height_px(), count_bits(candidate.words()),
+       target.set_pixels(), count_and(candidate.words(), target.mask().words())}};
 }
 
 MaskMetrics compare_masks(const Mask& candidate, const PreparedTarget& target) {
-  const Counts n = count_pixels(candidate, target);
-  return {pixel_accuracy(n),
-          iou(n),
-          dice(n),
-          block_iou(count_blocks(candidate), target.block_counts()),
-          iou(outline_of(candidate), target.outline()),
-          truncated_distance(n, candidate, target),
-          gap_iou(target.outline(), target.gaps(), candidate)};
+  const Comparison pair = make_comparison(candidate, target);
+  MaskMetrics metrics;
+  for (std::size_t row = 0; row < kMetricCount; ++row) metrics.values[row] = kMetrics[row].evaluate(pair);
+  return metrics;
+}
+
+MaskMetrics compare_masks(const Mask& candidate, const Mask& target) {
+  return compare_masks(candidate, PreparedTarget(target));
 }
 
 PreparedTarget::PreparedTarget(Mask target)
@@ -201,23 +164,5 @@ PreparedTarget::PreparedTarget(Mask target)
       set_pixels_(area_px(mask_)),
       block_counts_(count_blocks(mask_)),
       distance_bits_(distance_bit_planes(mask_, distance_limit_px(larger_side_px(mask_)))) {}
-
-std::vector<std::string> objective_names() {
-  std::vector<std::string> names;
-  for (const TermRow& row : kTerms) names.emplace_back(row.name);
-  return names;
-}
-
-double dissimilarity(const MaskObjective& objective, const Mask& candidate, const PreparedTarget& target) {
-  const Counts n = count_pixels(candidate, target);
-  double sum = 0;
-  for (const ObjectiveTerm& term : objective.terms)
-    sum += term.weight * find_term(term.name).evaluate(n, candidate, target);
-  return std::clamp(sum, 0.0, 1.0);  // weights that sum to 1 + 1e-16 must not leave [0, 1]
-}
-
-double dissimilarity(const MaskObjective& objective, const Mask& candidate, const Mask& target) {
-  return dissimilarity(objective, candidate, PreparedTarget(target));
-}
 
 }  // namespace espalier

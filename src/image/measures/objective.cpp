@@ -1,4 +1,6 @@
-// The text of a weighted sum of dissimilarities: "0.5*truncated_distance + 0.5*iou".
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -6,6 +8,7 @@
 #include <espalier/core/error.h>
 #include <espalier/core/parameter_table.h>
 #include <espalier/image/measures/compare.h>
+#include <espalier/image/measures/objective.h>
 
 namespace espalier {
 
@@ -25,10 +28,23 @@ double parse_weight(std::string_view text, std::string_view objective) {
   return weight;
 }
 
+bool is_called(const Metric& metric, std::string_view name) {
+  return metric.name == name || (metric.also_called && metric.also_called == name);
+}
+
+const Metric* find_metric(std::string_view name) {
+  for (const Metric& metric : kMetrics)
+    if (is_called(metric, name)) return &metric;
+  return nullptr;
+}
+
 void check_name(const std::string& name, std::string_view objective) {
+  const Metric* metric = find_metric(name);
   const std::vector<std::string> known = objective_names();
-  for (const std::string& candidate : known)
-    if (candidate == name) return;
+  if (metric && metric->in_objective) return;
+  if (metric)
+    throw_input_error("objective '{}': got '{}', which is only reported, expected one of {}", objective, name,
+                      fmt::join(known, ", "));
   throw_input_error("objective '{}': no measure is named '{}', did you mean '{}'?", objective, name,
                     closest_name(name, known));
 }
@@ -55,6 +71,16 @@ std::size_t end_of_term(std::string_view text, std::size_t first) {
 
 }  // namespace
 
+std::vector<std::string> objective_names() {
+  std::vector<std::string> names;
+  for (const Metric& metric : kMetrics) {
+    if (!metric.in_objective) continue;
+    names.emplace_back(metric.name);
+    if (metric.also_called) names.emplace_back(metric.also_called);
+  }
+  return names;
+}
+
 MaskObjective parse_objective(std::string_view text) {
   MaskObjective objective;
   double sum = 0;
@@ -76,6 +102,21 @@ std::string to_string(const MaskObjective& objective) {
   for (const ObjectiveTerm& term : objective.terms)
     text += fmt::format("{}{}*{}", text.empty() ? "" : "+", term.weight, term.name);
   return text;
+}
+
+double dissimilarity(const MaskObjective& objective, const Mask& candidate, const PreparedTarget& target) {
+  const Comparison pair = make_comparison(candidate, target);
+  double sum = 0;
+  for (const ObjectiveTerm& term : objective.terms) {
+    const Metric* metric = find_metric(term.name);
+    if (!metric) throw InternalError("no objective is named " + term.name);
+    sum += term.weight * dissimilarity_of(*metric, metric->evaluate(pair));
+  }
+  return std::clamp(sum, 0.0, 1.0);  // weights that sum to 1 + 1e-16 must not leave [0, 1]
+}
+
+double dissimilarity(const MaskObjective& objective, const Mask& candidate, const Mask& target) {
+  return dissimilarity(objective, candidate, PreparedTarget(target));
 }
 
 }  // namespace espalier

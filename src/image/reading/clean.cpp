@@ -60,7 +60,7 @@ RunSets join_touching(const std::vector<Run>& runs, int slack) {
   return sets;
 }
 
-/// In `a` or in `b`.
+/// What is set in `a` or in `b`.
 Mask either(Mask a, const Mask& b) {
   for (std::size_t i = 0; i < a.words().size(); ++i) a.words()[i] |= b.words()[i];
   return a;

@@ -10,7 +10,7 @@
 
 namespace espalier {
 
-/// In pixels, as cameras count them: the centre of pixel (i, j) is (i + 0.5, j + 0.5).
+/// A place in pixels, as cameras count them: the centre of pixel (i, j) is (i + 0.5, j + 0.5).
 struct PixelPoint {
   float x = 0, y = 0;
 };

@@ -20,7 +20,7 @@ struct PictureFaults {
 /// inside of it.
 PictureFaults picture_faults(const Mask& mask);
 
-/// Without the trees beside the largest. The same mask where there is one tree.
+/// The mask without the trees beside the largest; it is the same mask where there is one tree.
 Mask largest_tree(const Mask& mask);
 
 /// A line for each fault; `took_largest`: of several trees, the largest was taken and not all of them.

@@ -40,17 +40,6 @@ void clean(Separation& separation, const TargetOptions& options) {
   separation.how += fmt::format("; pinholes under {} px filled ({} px)", speck_px, area_px(mask) - cleaned);
 }
 
-template <typename Value>
-Value parse_choice(const std::string& text, const char* what,
-                   std::initializer_list<std::pair<const char*, Value>> choices) {
-  std::string known;
-  for (const auto& [name, value] : choices) {
-    if (text == name) return value;
-    known += (known.empty() ? "" : ", ") + std::string(name);
-  }
-  throw_input_error("the {} '{}' is unknown, expected one of {}", what, text, known);
-}
-
 }  // namespace
 
 TargetPicture read_mask(const fs::path& path, const TargetOptions& options) {
@@ -85,18 +74,6 @@ TargetPicture read_target(const fs::path& path, const TargetOptions& options) {
   target.how = fmt::format("{}; {}", separation.how, target.how);
   target.faults = faults;
   return target;
-}
-
-SeparationMethod parse_separation_method(const std::string& text) {
-  using enum SeparationMethod;
-  return parse_choice<SeparationMethod>(
-      text, "method",
-      {{"auto", automatic}, {"alpha", alpha}, {"luminance", luminance}, {"background", background}});
-}
-
-TreeSide parse_tree_side(const std::string& text) {
-  using enum TreeSide;
-  return parse_choice<TreeSide>(text, "side", {{"auto", automatic}, {"light", light}, {"dark", dark}});
 }
 
 }  // namespace espalier

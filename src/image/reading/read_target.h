@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include <espalier/core/names.h>
 #include <espalier/image/masks/mask.h>
 #include <espalier/image/reading/frame.h>
 #include <espalier/image/reading/picture_faults.h>
@@ -16,9 +17,21 @@ namespace espalier {
 /// has, where it has one; else luminance.
 enum class SeparationMethod { automatic, alpha, luminance, background };
 
+template <>
+inline constexpr auto kNames<SeparationMethod> =
+    std::to_array<Name<SeparationMethod>>({{SeparationMethod::automatic, "auto"},
+                                           {SeparationMethod::alpha, "alpha"},
+                                           {SeparationMethod::luminance, "luminance"},
+                                           {SeparationMethod::background, "background"}});
+
 /// Which side of the threshold is the tree. automatic: the one the border does not show.
 /// For alpha, light is the opaque side; for background, light is what differs from the border.
 enum class TreeSide { automatic, light, dark };
+
+template <>
+inline constexpr auto kNames<TreeSide> = std::to_array<Name<TreeSide>>({{TreeSide::automatic, "auto"},
+                                                                        {TreeSide::light, "light"},
+                                                                        {TreeSide::dark, "dark"}});
 
 struct TargetOptions {
   int size_px = 256;  ///< side of the square frame, 16..4096
@@ -48,9 +61,5 @@ TargetPicture read_mask(const std::filesystem::path& path, const TargetOptions& 
 /// Places a mask that holds a tree in the frame of `size_px`. Throws InputError (opening with `name`)
 /// where nothing is set.
 TargetPicture frame_mask(const Mask& mask, int size_px, const std::string& name = "mask");
-
-/// Option names for the command line: "auto", "alpha", "luminance", "background"; "auto", "light", "dark".
-SeparationMethod parse_separation_method(const std::string& text);
-TreeSide parse_tree_side(const std::string& text);
 
 }  // namespace espalier

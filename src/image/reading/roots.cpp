@@ -36,7 +36,7 @@ Run narrowest_above(const Mask& mask, Run run, int y, int end_row) {
   return narrowest;
 }
 
-/// At least two, at the fork.
+/// Whether there are at least two feet at the fork.
 bool has_feet(const Mask& mask, const Roots& roots) {
   return std::ranges::count_if(runs_of(mask, roots.fork_row), [&](const Run& foot) {
            return foot.width() >= kFoot * roots.trunk.width();

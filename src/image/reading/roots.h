@@ -15,8 +15,8 @@ struct Roots {
   int width_px = 0;  ///< of the feet and what is between them
 };
 
-/// Of a mask that is set in `box` and nowhere else; none where the trunk has one foot, or where what joins
-/// the feet is no trunk but a crown that hangs down.
+/// The roots in a mask that is set in `box` and nowhere else; none where the trunk has one foot, or where
+/// what joins the feet is no trunk but a crown that hangs down.
 std::optional<Roots> roots_of(const Mask& mask, const MaskBox& box);
 
 /// The mask whose trunk goes straight down to the lowest row instead of forking into roots.

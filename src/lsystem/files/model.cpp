@@ -23,6 +23,7 @@ ParameterInfo unit_row(double unit_m) {
           .search_upper = unit_m * 1000,
           .scale = Scale::logarithmic,
           .default_value = unit_m,
+          .role = {Role::length_unit},
           .help = "metres of one unit of the L-system"};
 }
 
@@ -72,7 +73,7 @@ class LsystemModel : public Model {
   const ParameterTable& table() const override { return table_; }
 
   /// Nothing is known before it is derived; the budget is kept while it is.
-  GrowthEstimate estimate(std::span<const double>) const override { return {1, 0}; }
+  GrowthEstimate estimate(std::span<const double>) const override { return {1, 0, false}; }
 
   bool has_branch_paths() const override { return true; }
   /// Overrides act on what has grown: too late for other random numbers.

@@ -163,7 +163,9 @@ class Parser {
 
   void parse_parameter(Cursor& cursor) {
     const std::string name = new_name(cursor);
+    const Position position = cursor.position();
     ParameterInfo row = parse_parameter_row(cursor, name);
+    check_role_is_free(grammar_.parameters, row, position);
     grammar_.constants.push_back({name, {"", cursor.position()}, grammar_.parameters.rows.size()});
     grammar_.names.globals.push_back(name);
     grammar_.parameters.rows.push_back(std::move(row));

@@ -7,19 +7,48 @@ namespace espalier::lsystem {
 
 namespace {
 
-void parse_scale_and_unit(Cursor& cursor, ParameterInfo& row) {
+/// leaf_count, or branch_count[2].
+void parse_role(Cursor& cursor, ParameterInfo& row) {
+  cursor.skip_space();
+  const Position position = cursor.position();
+  std::string name = cursor.expect_word("a role");
+  if (cursor.take("[")) {
+    const double level = parse_number(cursor, "a level of branching");
+    cursor.expect("]");
+    name += fmt::format("[{}]", level);
+  }
+  try {
+    row.role = role_by_name(name);
+  } catch (const InputError& error) {
+    throw_at(position, "{}", error.what());
+  }
+}
+
+void parse_plain(Cursor& cursor, ParameterInfo& row) {
+  cursor.skip_space();
+  const Position position = cursor.position();
+  row.plain = parse_number(cursor, "a number");
+  check_value(row, *row.plain, describe(position) + ": plain");
+}
+
+/// What stands between the bounds and the help, word by word.
+void parse_traits(Cursor& cursor, ParameterInfo& row) {
   row.unit.assign(1, '1');
   while (!cursor.at_end() && cursor.rest()[0] != '"') {
     const Position position = cursor.position();
-    const std::string word = cursor.expect_word("integer, logarithmic, deg or \"help\"");
+    const std::string word = cursor.expect_word("integer, logarithmic, deg, role, plain or \"help\"");
     if (word == "integer")
       row.scale = Scale::integer;
     else if (word == "logarithmic")
       row.scale = Scale::logarithmic;
     else if (word == "deg")
       row.unit = word;
+    else if (word == "role")
+      parse_role(cursor, row);
+    else if (word == "plain")
+      parse_plain(cursor, row);
     else
-      throw_at(position, "got '{}', expected integer, logarithmic or deg", word);
+      throw_at(position, "got '{}', expected integer, logarithmic, deg, role or plain", word);
   }
   if (row.scale == Scale::logarithmic && row.lower <= 0)
     throw_at(cursor.position(), "got lower bound {}, expected one above 0 for a logarithmic parameter",
@@ -60,13 +89,22 @@ ParameterInfo parse_parameter_row(Cursor& cursor, const std::string& name) {
   row.lower = row.search_lower = parse_number(cursor, "the lower bound");
   cursor.expect("..");
   row.upper = row.search_upper = parse_number(cursor, "the upper bound");
-  parse_scale_and_unit(cursor, row);
+  parse_traits(cursor, row);
   parse_help(cursor, row);
   row.free_by_default = true;
   if (!(row.lower < row.upper))
     throw_at(position, "got bounds {} .. {}, expected the lower one first", row.lower, row.upper);
   check_value(row, row.default_value, describe(position));
   return row;
+}
+
+void check_role_is_free(const ParameterTable& table, const ParameterInfo& row, const Position& position) {
+  const auto [role, level] = row.role;
+  if (role == Role::none || role == Role::trunk_form) return;
+  const auto other = table.find(role, level);
+  if (other || role == Role::length_unit)
+    throw_at(position, "got role '{}' for '{}', expected one that '{}' does not bear", role_name(row.role),
+             row.name, other ? table.rows[*other].name : "unit");
 }
 
 }  // namespace espalier::lsystem

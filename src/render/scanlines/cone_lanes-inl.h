@@ -74,7 +74,7 @@ struct ConeBounds {
   Vector low(Vector y) const { return hn::Max(hn::Max(lower[0].at(y), lower[1].at(y)), lower[2].at(y)); }
   Vector high(Vector y) const { return hn::Min(hn::Min(upper[0].at(y), upper[1].at(y)), upper[2].at(y)); }
 
-  /// Of one lane, in all lanes.
+  /// The bounds of one lane, in all lanes.
   ConeBounds of(std::size_t lane) const {
     ConeBounds one = *this;
     for (Line* line :

@@ -88,7 +88,7 @@ class LeafTiles {
   static constexpr int kWidth = 6, kHeight = 5;  ///< at 256 px, most leaves are no larger
   static constexpr int kFirstColumn = 0x1041041, kRowBits = (1 << kWidth) - 1;
   static constexpr std::size_t kMost = 64;
-  /// Of the pixels of a tile.
+  /// The place of the pixels of a tile.
   struct Place {
     float column, row;
     std::int32_t bit;

@@ -137,7 +137,7 @@ class LeafProjection {
     return {rows.begin, hn::IfThenElse(is_leaf, rows.end, rows.begin)};
   }
 
-  /// From the leaf's base to the centre of its first pixel.
+  /// The way from the leaf's base to the centre of its first pixel.
   static Vector from_first(const RunLanes& run, Vector base) {
     return hn::Sub(hn::Add(hn::ConvertTo(Floats(), run.begin), set(0.5f)), base);
   }

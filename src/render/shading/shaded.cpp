@@ -97,7 +97,7 @@ Rgb background_color(const ShadedSettings& settings, const Camera& camera, int y
   return {srgb_byte(color.x), srgb_byte(color.y), srgb_byte(color.z)};
 }
 
-/// Relative to the viewer, so that the side that is seen is lit whatever the view.
+/// The direction moves with the viewer, so that the side that is seen is lit whatever the view.
 Vec3 sun_direction(const Camera& camera, const ShadedSettings& settings) {
   const Vec3 towards_viewer = normalized({-camera.forward.x, -camera.forward.y, 0}, {0, -1, 0});
   const Vec3 to_the_right = cross({0, 0, 1}, towards_viewer);

@@ -146,7 +146,7 @@ bool ChildPlacer::next_in_whorl(ChildSlot& slot) {
   return false;
 }
 
-/// Of the rotation about the parent.
+/// The variation of the rotation about the parent.
 float ChildPlacer::jitter_deg(int index) const {
   const float most = p_.rotate_v[child_level_];
   return most == 0 ? 0 : draw_signed(stem_->key, Draw::child_rotation, index) * most;

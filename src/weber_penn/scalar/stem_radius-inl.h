@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace espalier {
 namespace HWY_NAMESPACE {
 
-/// At z = 0 (base) … 1 (tip).
+/// The radius at z = 0 (base) … 1 (tip).
 inline Vector radius_at(const GrowingStem& stem, Vector z, float taper) {
   const Vector base = set(stem.radius_m);
   const Vector cone = hn::Mul(base, hn::Sub(set(1), hn::Mul(set(taper < 1 ? taper : 2 - taper), z)));

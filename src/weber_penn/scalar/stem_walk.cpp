@@ -8,7 +8,8 @@ namespace espalier {
 
 namespace {
 
-/// At segment end `at`: up to `most` over the whole stem. No number is drawn where there is nothing to vary.
+/// The variation at segment end `at`: up to `most` over the whole stem. No number is drawn where there is
+/// nothing to vary.
 float jitter_deg(const GrowingStem& stem, Draw purpose, int at, float most, int segments) {
   return most == 0 ? 0 : draw_signed(stem.key, purpose, at) * most / segments;
 }
@@ -40,8 +41,8 @@ void apply_tropism(GrowingStem& stem, const WeberPennParameters& p) {
   if (strength > 1e-9f) stem.turtle.rotate_about(axis * (1 / strength), 10 * strength);
 }
 
-/// Of the error diffusion. Trunks start at 0 as in the published implementation, all else at random, which
-/// keeps the mean while stems may grow in any order.
+/// The first error of the error diffusion. Trunks start at 0 as in the published implementation, all else at
+/// random, which keeps the mean while stems may grow in any order.
 float first_split_error(const GrowingStem& stem) {
   return stem.level == 0 ? 0 : draw_unit(stem.key, Draw::split_error);
 }

@@ -17,7 +17,7 @@ struct Segment {
 Vec3 segment_point(const Segment& segment, float t);
 Vec3 segment_tangent(const Segment& segment, float t);  ///< unit
 
-/// By how much an override bends a stem of this level more than the parameters do.
+/// How much an override bends a stem of this level more than the parameters do.
 ExtraCurve extra_curve(const BranchChange* change, int level, const WeberPennParameters& parameters);
 
 class StemVisitor {

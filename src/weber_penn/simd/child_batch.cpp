@@ -202,7 +202,7 @@ HWY_EXPORT(put_spread);
 
 namespace {
 
-/// Without its first `skipped` children.
+/// The run without its first `skipped` children.
 ChildRun rest_of(const ChildRun& run, int skipped) {
   ChildRun rest = run;
   rest.first += skipped;

@@ -20,7 +20,7 @@ bool ChildSpread::takes(float child_count, int child_level, const WeberPennParam
   return child_count >= 0 && p.branch_dist[level_index(child_level)] <= 1;
 }
 
-/// Of a child, in [0, 1] along the stem.
+/// The place of a child, in [0, 1] along the stem.
 float ChildSpread::place(int child, int segments) const {
   std::size_t segment = 0;
   while (segment + 1 < static_cast<std::size_t>(segments) && static_cast<float>(child) >= whole_[segment])

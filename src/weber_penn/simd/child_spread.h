@@ -19,7 +19,7 @@ class ChildSpread {
 
   int first() const { return first_; }  ///< the first child above the bare base
   int end() const { return end_; }
-  /// Of the last child, where it is not whole (relaxed counts); else 1.
+  /// How far the last child has grown, where it is not whole (relaxed counts); else 1.
   float last_growth() const { return last_growth_; }
 
   // For each segment, with a vector more that can be read: the running count before it, and the children
@@ -47,10 +47,10 @@ struct ChildRolls {
 /// Where nothing is random, all stems of a level share one table.
 class RollTable {
  public:
-  /// For another plant.
+  /// Forgets what was drawn, for another plant.
   void clear() { shared_deg_.clear(); }
 
-  /// Of the first `count` children; good until the next call.
+  /// The rolls of the first `count` children; good until the next call.
   ChildRolls rolls(const GrowingStem& stem, int count, const WeberPennParameters& parameters);
 
  private:

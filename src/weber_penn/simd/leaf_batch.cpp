@@ -55,7 +55,7 @@ HWY_INLINE void find_bends(WaitingChildren& leaves, std::size_t at, float leaf_b
   hn::Store(hn::Mul(set(leaf_bend), arc_tangent2_deg(sine, cosine)), Floats(), &leaves.roll_deg[at]);
 }
 
-/// In the plant. Writes whole vectors: up to 7 rows more than there are leaves.
+/// Leaves in the plant. Writes whole vectors: up to 7 rows more than there are leaves.
 struct InRows {
   const LeafRows& to;
 
@@ -66,7 +66,7 @@ struct InRows {
   }
 };
 
-/// In the columns that they come from.
+/// Leaves in the columns that they come from.
 struct InColumns {
   WaitingChildren& leaves;
 

@@ -25,12 +25,12 @@ struct StemCurve {
     const float *x, *y, *z;
     Vec3 at(int entry) const { return {x[entry], y[entry], z[entry]}; }
   };
-  /// Of knots: where they are.
+  /// Where the knots are.
   Rows3 point() const { return rows(kPoint, 0); }
-  /// Of segments: the heading at their start, and at their end.
+  /// The heading of segments at their start, and at their end.
   Rows3 heading_at_start() const { return rows(kHeading, 0); }
   Rows3 heading() const { return rows(kHeading, 1); }
-  /// Of segments: to the right of the heading at their end.
+  /// The direction to the right of the heading at the end of segments.
   Rows3 right() const { return rows(kRight, 0); }
 
  private:

@@ -1,14 +1,18 @@
-// The rows of the Weber–Penn table: each names a member of WeberPennParameters, its unit, its valid
-// values and where a search looks. Help and meaning after [CH, Appendix C].
+// The rows of the Weber–Penn table: each names a member of WeberPennParameters and says all there is to say
+// of it, but its default, which is the member's. Help and meaning after [CH, Appendix C]. Plain values are
+// those of a tree to trace: where overrides bend a branch, curve_v is what other seeds bend it by.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 
 #include <espalier/core/error.h>
 #include <espalier/weber_penn/table/parameters.h>
+#include <espalier/weber_penn/table/taper_codec.h>
 
 namespace espalier {
 
@@ -21,7 +25,34 @@ struct Range {
   double lower, upper;
 };
 
-/// One parameter of the paper; a level member becomes four rows of the table.
+using Names = std::span<const char* const>;
+
+/// What holds of the trunk's row and what of those of the branches; of a whole plant's row the first.
+template <typename T>
+struct ForTrunkAndBranches {
+  T trunk{}, branches{};
+  const T& at(int level) const { return level > 0 ? branches : trunk; }
+};
+
+/// Names of two rows at most, the second or both nullptr; "[n]" is the row's own level.
+using Needs = std::array<const char*, 2>;
+
+/// What is not the same in most rows.
+struct Facts {
+  std::optional<Range> trunk_valid;  ///< of the trunk's row, where it is another
+  Names choices;
+  int first_choice = 0;
+  const char *mixed_with = "", *mixed_by = "";
+  FlagSides sides = FlagSides::meet_at_zero;
+  bool relaxable = false;  ///< but for a count of trunks
+  bool places = false;     ///< says how stems stand on their parents, or leaves on stems of the level above
+  ForTrunkAndBranches<Needs> needs;  ///< rows of which one is not 0 where the values mean anything
+  const ParameterCodec& (*codec)() = nullptr;
+  ForTrunkAndBranches<Role> role;
+  ForTrunkAndBranches<std::optional<double>> plain;
+};
+
+/// One parameter of the paper; a level member becomes four rows of the table. Its default is the member's.
 struct Definition {
   std::variant<PlantMember, LevelMember> member;
   const char* name;
@@ -32,6 +63,7 @@ struct Definition {
   const char* free_levels;  ///< digits of the levels that are free by default; "*" for the whole plant
   const char* symbol;       ///< Weber and Penn's name
   const char* help;
+  Facts facts = {};
 };
 
 using P = WeberPennParameters;
@@ -39,124 +71,128 @@ constexpr Scale kReal = Scale::linear, kLog = Scale::logarithmic, kWhole = Scale
                 kChoice = Scale::choice;
 constexpr SignMeaning kNumber = SignMeaning::number, kFlag = SignMeaning::flag;
 
+constexpr const char* kCrownShapes[] = {"conical",         "spherical",           "hemispherical",
+                                        "cylindrical",     "tapered_cylindrical", "flame",
+                                        "inverse_conical", "tend_flame",          "envelope"};
+constexpr const char* kLeafShapes[] = {"default",  "ovate",     "linear",    "cordate",
+                                       "maple",    "palmate",   "spiky_oak", "rounded_oak",
+                                       "elliptic", "rectangle", "triangle"};
+constexpr const char* kBlossomShapes[] = {"cherry", "orange", "magnolia"};
+constexpr const char* kSwitch[] = {"off", "on"};
+
 // clang-format off
 const Definition kDefinitions[] = {
-  {&P::shape, "shape", "1", {0, 8}, {0, 8}, kChoice, kNumber, "", "Shape", "crown shape: how the length of first-level branches changes with height"},
-  {&P::shape_2, "shape_2", "1", {0, 8}, {0, 8}, kChoice, kNumber, "", "", "a second crown shape, mixed in by shape_mix"},
-  {&P::shape_mix, "shape_mix", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "", "share of shape_2 in the crown's shape: 0 is shape alone"},
-  {&P::g_scale, "g_scale", "m", {0.01, 500}, {2, 40}, kLog, kNumber, "*", "Scale", "scale of the whole tree; with length[0] = 1 its height"},
-  {&P::g_scale_v, "g_scale_v", "m", {0, 500}, {0, 10}, kReal, kNumber, "", "ScaleV", "largest variation of g_scale"},
-  {&P::levels, "levels", "1", {1, 4}, {1, 4}, kWhole, kNumber, "", "Levels", "levels of branching, the trunk included; leaves grow on the last"},
-  {&P::ratio, "ratio", "1", {0.0001, 1}, {0.005, 0.08}, kLog, kNumber, "*", "Ratio", "radius of the trunk over its length"},
-  {&P::ratio_power, "ratio_power", "1", {0, 10}, {0.8, 2.5}, kReal, kNumber, "*", "RatioPower", "how strongly radii shrink from level to level"},
-  {&P::flare, "flare", "1", {0, 20}, {0, 2}, kReal, kNumber, "*", "Flare", "widening of the trunk at its foot, as a fraction of its radius"},
-  {&P::base_splits, "base_splits", "1", {-10, 10}, {-3, 3}, kWhole, kFlag, "", "0BaseSplits", "clones of the trunk at the height of its base; negative: a random number up to that many"},
-  {&P::base_size, "base_size", "1", {0, 0.99}, {0, 0.6}, kReal, kNumber, "01", "BaseSize", "fraction of the stem below its first child"},
-  {&P::down_angle, "down_angle", "deg", {-360, 360}, {-10, 140}, kReal, kNumber, "123", "nDownAngle", "angle of a stem away from its parent"},
-  {&P::down_angle_v, "down_angle_v", "deg", {-360, 360}, {-90, 60}, kReal, kFlag, "12", "nDownAngleV", "variation of down_angle; negative: changes along the parent, lower stems pointing further down"},
-  {&P::rotate, "rotate", "deg", {-360, 360}, {-180, 180}, kReal, kFlag, "1", "nRotate", "angle about the parent from one stem to the next; negative: on alternate sides; the spread of a fan"},
-  {&P::rotate_v, "rotate_v", "deg", {-360, 360}, {0, 90}, kReal, kNumber, "", "nRotateV", "largest variation of rotate"},
-  {&P::branches, "branches", "1", {-1000, 1000}, {1, 120}, kWhole, kFlag, "123", "nBranches", "most stems of this level on each parent; negative: that many in a fan at its tip; level 0: trunks from the ground"},
-  {&P::length, "length", "1", {0, 10}, {0.02, 1.2}, kReal, kNumber, "123", "nLength", "length of a stem relative to its parent's"},
-  {&P::length_v, "length_v", "1", {0, 10}, {0, 0.3}, kReal, kNumber, "1", "nLengthV", "largest variation of length"},
-  {&P::taper, "taper", "1", {0, 3}, {0.5, 2}, kReal, kNumber, "0", "nTaper", "0 a cylinder, 1 a cone, 2 a rounded end, up to 3 periodic swelling"},
-  {&P::seg_splits, "seg_splits", "1", {0, 4}, {0, 1.5}, kReal, kNumber, "01", "nSegSplits", "clones at each segment end, fractions spread along the stem"},
-  {&P::split_angle, "split_angle", "deg", {-180, 180}, {-60, 80}, kReal, kFlag, "01", "nSplitAngle", "angle between the clones of a split; negative: in the plane of the stem, not paid back"},
-  {&P::split_angle_v, "split_angle_v", "deg", {-180, 180}, {0, 30}, kReal, kNumber, "", "nSplitAngleV", "largest variation of split_angle"},
-  {&P::curve_res, "curve_res", "1", {0, 100}, {1, 12}, kWhole, kNumber, "", "nCurveRes", "segments of a stem (0, for levels that do not grow, counts as 1)"},
-  {&P::curve, "curve", "deg", {-720, 720}, {-120, 120}, kReal, kNumber, "012", "nCurve", "bend from start to end, away from the parent's direction"},
-  {&P::curve_back, "curve_back", "deg", {-720, 720}, {-120, 120}, kReal, kNumber, "1", "nCurveBack", "bend of the second half, for S-shaped stems; 0: one bend"},
-  {&P::curve_v, "curve_v", "deg", {-360, 1000}, {0, 200}, kReal, kFlag, "012", "nCurveV", "largest variation of curve; negative: a helix of that declination"},
-  {&P::bend_v, "bend_v", "deg", {0, 1000}, {0, 200}, kReal, kNumber, "1", "nBendV", "largest sideways bend from start to end"},
-  {&P::branch_dist, "branch_dist", "1", {0, 50}, {0, 4}, kReal, kNumber, "", "", "0 alternate, 1 opposite, above 1 whorls of branch_dist + 1 stems"},
-  {&P::radius_mod, "radius_mod", "1", {0, 20}, {0.1, 3}, kLog, kNumber, "12", "", "factor on the radius of stems"},
-  {&P::leaf_blos_num, "leaf_blos_num", "1", {-2000, 10000}, {0, 120}, kWhole, kFlag, "*", "Leaves", "leaves or blossom on each stem of the last level; negative: in a fan at its tip"},
-  {&P::leaf_shape, "leaf_shape", "1", {0, 10}, {0, 10}, kChoice, kNumber, "", "LeafShape", "outline of a leaf"},
-  {&P::leaf_scale, "leaf_scale", "m", {0, 50}, {0.03, 0.5}, kLog, kNumber, "*", "LeafScale", "length of a leaf"},
-  {&P::leaf_scale_x, "leaf_scale_x", "1", {0, 50}, {0.05, 1.5}, kLog, kNumber, "*", "LeafScaleX", "width of a leaf relative to its outline's"},
-  {&P::leaf_bend, "leaf_bend", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "LeafBend", "how far leaves turn to face outwards"},
-  {&P::blossom_shape, "blossom_shape", "1", {1, 3}, {1, 3}, kChoice, kNumber, "", "", "form of a blossom"},
-  {&P::blossom_scale, "blossom_scale", "m", {0, 50}, {0, 0.3}, kReal, kNumber, "", "", "size of a blossom"},
-  {&P::blossom_rate, "blossom_rate", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "", "fraction of the leaves that are blossom"},
-  {&P::tropism_x, "tropism_x", "1", {-100, 100}, {-3, 3}, kReal, kNumber, "*", "", "pull of all stems along x"},
-  {&P::tropism_y, "tropism_y", "1", {-100, 100}, {-3, 3}, kReal, kNumber, "", "", "pull of all stems along y"},
-  {&P::tropism_z, "tropism_z", "1", {-100, 100}, {-4, 4}, kReal, kNumber, "*", "AttractionUp", "pull upwards of stems of level 2 and above"},
-  {&P::prune_ratio, "prune_ratio", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "PruneRatio", "how far pruning to the envelope is applied"},
-  {&P::prune_width, "prune_width", "1", {0, 10}, {0.05, 1}, kReal, kNumber, "", "PruneWidth", "radius of the envelope as a fraction of its height"},
+  {&P::shape, "shape", "1", {0, 8}, {0, 8}, kChoice, kNumber, "", "Shape", "crown shape: how the length of first-level branches changes with height",
+   {.choices = kCrownShapes, .mixed_with = "shape_2", .mixed_by = "shape_mix", .plain = {3}}},
+  {&P::shape_2, "shape_2", "1", {0, 8}, {0, 8}, kChoice, kNumber, "", "", "a second crown shape, mixed in by shape_mix",
+   {.choices = kCrownShapes, .needs = {{"shape_mix"}}}},
+  {&P::shape_mix, "shape_mix", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "", "share of shape_2 in the crown's shape: 0 is shape alone",
+   {.plain = {0}}},
+  {&P::g_scale, "g_scale", "m", {0.01, 500}, {2, 40}, kLog, kNumber, "*", "Scale", "scale of the whole tree; with length[0] = 1 its height",
+   {.role = {Role::tree_scale}}},
+  {&P::g_scale_v, "g_scale_v", "m", {0, 500}, {0, 10}, kReal, kNumber, "", "ScaleV", "largest variation of g_scale",
+   {.role = {Role::tree_scale_variation}, .plain = {0}}},
+  {&P::levels, "levels", "1", {1, 4}, {1, 4}, kWhole, kNumber, "", "Levels", "levels of branching, the trunk included; leaves grow on the last",
+   {.role = {Role::levels}}},
+  {&P::ratio, "ratio", "1", {0.0001, 1}, {0.005, 0.08}, kLog, kNumber, "*", "Ratio", "radius of the trunk over its length",
+   {.role = {Role::trunk_ratio}}},
+  {&P::ratio_power, "ratio_power", "1", {0, 10}, {0.8, 2.5}, kReal, kNumber, "*", "RatioPower", "how strongly radii shrink from level to level",
+   {.role = {Role::radius_power}, .plain = {1.2}}},
+  {&P::flare, "flare", "1", {0, 20}, {0, 2}, kReal, kNumber, "*", "Flare", "widening of the trunk at its foot, as a fraction of its radius",
+   {.role = {Role::trunk_flare}, .plain = {0}}},
+  {&P::base_splits, "base_splits", "1", {-10, 10}, {-3, 3}, kWhole, kFlag, "", "0BaseSplits", "clones of the trunk at the height of its base; negative: a random number up to that many",
+   {.sides = FlagSides::one_measure, .role = {Role::trunk_form}, .plain = {0}}},
+  {&P::base_size, "base_size", "1", {0, 0.99}, {0, 0.6}, kReal, kNumber, "01", "BaseSize", "fraction of the stem below its first child",
+   {.role = {Role::crown_base}, .plain = {0, 0}}},
+  {&P::down_angle, "down_angle", "deg", {-360, 360}, {-10, 140}, kReal, kNumber, "123", "nDownAngle", "angle of a stem away from its parent",
+   {.places = true, .plain = {0, 50}}},
+  {&P::down_angle_v, "down_angle_v", "deg", {-360, 360}, {-90, 60}, kReal, kFlag, "12", "nDownAngleV", "variation of down_angle; negative: changes along the parent, lower stems pointing further down",
+   {.places = true, .plain = {0, 0}}},
+  {&P::rotate, "rotate", "deg", {-360, 360}, {-180, 180}, kReal, kFlag, "1", "nRotate", "angle about the parent from one stem to the next; negative: on alternate sides; the spread of a fan",
+   {.sides = FlagSides::unrelated, .places = true, .plain = {180, 180}}},
+  {&P::rotate_v, "rotate_v", "deg", {-360, 360}, {0, 90}, kReal, kNumber, "", "nRotateV", "largest variation of rotate",
+   {.places = true, .plain = {0, 0}}},
+  {&P::branches, "branches", "1", {-1000, 1000}, {1, 120}, kWhole, kFlag, "123", "nBranches", "most stems of this level on each parent; negative: that many in a fan at its tip; level 0: trunks from the ground",
+   {.trunk_valid = Range{1, 1000}, .sides = FlagSides::one_measure, .relaxable = true, .role = {Role::trunk_count, Role::branch_count}, .plain = {{}, 2}}},
+  {&P::length, "length", "1", {0, 10}, {0.02, 1.2}, kReal, kNumber, "123", "nLength", "length of a stem relative to its parent's",
+   {.role = {Role::trunk_form, Role::branch_length}, .plain = {1, 0.5}}},
+  {&P::length_v, "length_v", "1", {0, 10}, {0, 0.3}, kReal, kNumber, "1", "nLengthV", "largest variation of length",
+   {.role = {Role::trunk_form}, .plain = {0, 0}}},
+  {&P::taper, "taper", "1", {0, 3}, {0.5, 2}, kReal, kNumber, "0", "nTaper", "0 a cylinder, 1 a cone, 2 a rounded end, up to 3 periodic swelling",
+   {.codec = taper_codec, .role = {Role::trunk_taper}, .plain = {0.75, 0.75}}},
+  {&P::seg_splits, "seg_splits", "1", {0, 4}, {0, 1.5}, kReal, kNumber, "01", "nSegSplits", "clones at each segment end, fractions spread along the stem",
+   {.role = {Role::trunk_form}, .plain = {0, 0}}},
+  {&P::split_angle, "split_angle", "deg", {-180, 180}, {-60, 80}, kReal, kFlag, "01", "nSplitAngle", "angle between the clones of a split; negative: in the plane of the stem, not paid back",
+   {.needs = {{"seg_splits[n]", "base_splits"}, {"seg_splits[n]"}}}},
+  {&P::split_angle_v, "split_angle_v", "deg", {-180, 180}, {0, 30}, kReal, kNumber, "", "nSplitAngleV", "largest variation of split_angle",
+   {.needs = {{"seg_splits[n]", "base_splits"}, {"seg_splits[n]"}}}},
+  {&P::curve_res, "curve_res", "1", {0, 100}, {1, 12}, kWhole, kNumber, "", "nCurveRes", "segments of a stem (0, for levels that do not grow, counts as 1)",
+   {.role = {Role::trunk_segments}, .plain = {6, 6}}},
+  {&P::curve, "curve", "deg", {-720, 720}, {-120, 120}, kReal, kNumber, "012", "nCurve", "bend from start to end, away from the parent's direction",
+   {.role = {Role::trunk_bend}, .plain = {0, 0}}},
+  {&P::curve_back, "curve_back", "deg", {-720, 720}, {-120, 120}, kReal, kNumber, "1", "nCurveBack", "bend of the second half, for S-shaped stems; 0: one bend",
+   {.role = {Role::trunk_form}, .plain = {0, 0}}},
+  {&P::curve_v, "curve_v", "deg", {-360, 1000}, {0, 200}, kReal, kFlag, "012", "nCurveV", "largest variation of curve; negative: a helix of that declination",
+   {.role = {Role::trunk_bend_variation}, .plain = {50, 50}}},
+  {&P::bend_v, "bend_v", "deg", {0, 1000}, {0, 200}, kReal, kNumber, "1", "nBendV", "largest sideways bend from start to end",
+   {.role = {Role::trunk_form}, .plain = {0, 0}}},
+  {&P::branch_dist, "branch_dist", "1", {0, 50}, {0, 4}, kReal, kNumber, "", "", "0 alternate, 1 opposite, above 1 whorls of branch_dist + 1 stems",
+   {.places = true, .plain = {0, 0}}},
+  {&P::radius_mod, "radius_mod", "1", {0, 20}, {0.1, 3}, kLog, kNumber, "12", "", "factor on the radius of stems",
+   {.role = {Role::trunk_form, Role::branch_radius}, .plain = {1, 1}}},
+  {&P::leaf_blos_num, "leaf_blos_num", "1", {-2000, 10000}, {0, 120}, kWhole, kFlag, "*", "Leaves", "leaves or blossom on each stem of the last level; negative: in a fan at its tip",
+   {.sides = FlagSides::one_measure, .relaxable = true, .role = {Role::leaf_count}}},
+  {&P::leaf_shape, "leaf_shape", "1", {0, 10}, {0, 10}, kChoice, kNumber, "", "LeafShape", "outline of a leaf",
+   {.choices = kLeafShapes, .needs = {{"leaf_blos_num"}}}},
+  {&P::leaf_scale, "leaf_scale", "m", {0, 50}, {0.03, 0.5}, kLog, kNumber, "*", "LeafScale", "length of a leaf",
+   {.needs = {{"leaf_blos_num"}}, .role = {Role::leaf_length}}},
+  {&P::leaf_scale_x, "leaf_scale_x", "1", {0, 50}, {0.05, 1.5}, kLog, kNumber, "*", "LeafScaleX", "width of a leaf relative to its outline's",
+   {.needs = {{"leaf_blos_num"}}, .role = {Role::leaf_width}}},
+  {&P::leaf_bend, "leaf_bend", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "LeafBend", "how far leaves turn to face outwards",
+   {.needs = {{"leaf_blos_num"}}}},
+  {&P::blossom_shape, "blossom_shape", "1", {1, 3}, {1, 3}, kChoice, kNumber, "", "", "form of a blossom",
+   {.choices = kBlossomShapes, .first_choice = 1, .needs = {{"blossom_rate"}}}},
+  {&P::blossom_scale, "blossom_scale", "m", {0, 50}, {0, 0.3}, kReal, kNumber, "", "", "size of a blossom",
+   {.needs = {{"blossom_rate"}}}},
+  {&P::blossom_rate, "blossom_rate", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "", "fraction of the leaves that are blossom",
+   {.role = {Role::blossom_share}}},
+  {&P::tropism_x, "tropism_x", "1", {-100, 100}, {-3, 3}, kReal, kNumber, "*", "", "pull of all stems along x",
+   {.role = {Role::trunk_form}, .plain = {0}}},
+  {&P::tropism_y, "tropism_y", "1", {-100, 100}, {-3, 3}, kReal, kNumber, "", "", "pull of all stems along y",
+   {.role = {Role::trunk_form}, .plain = {0}}},
+  {&P::tropism_z, "tropism_z", "1", {-100, 100}, {-4, 4}, kReal, kNumber, "*", "AttractionUp", "pull upwards of stems of level 2 and above",
+   {.plain = {0}}},
+  {&P::prune_ratio, "prune_ratio", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "PruneRatio", "how far pruning to the envelope is applied",
+   {.plain = {0}}},
+  {&P::prune_width, "prune_width", "1", {0, 10}, {0.05, 1}, kReal, kNumber, "", "PruneWidth", "radius of the envelope as a fraction of its height",
+   {.needs = {{"prune_ratio"}}}},
   {&P::prune_width_peak, "prune_width_peak", "1", {0, 1}, {0.05, 0.95}, kReal, kNumber, "", "PruneWidthPeak", "where, from its bottom up, the envelope is widest"},
   {&P::prune_power_low, "prune_power_low", "1", {0, 20}, {0.05, 2}, kReal, kNumber, "", "PrunePowerLow", "curvature of the envelope below its peak: under 1 convex, over 1 concave"},
   {&P::prune_power_high, "prune_power_high", "1", {0, 20}, {0.05, 2}, kReal, kNumber, "", "PrunePowerHigh", "curvature of the envelope above its peak"},
-  {&P::relaxed_counts, "relaxed_counts", "1", {0, 1}, {0, 1}, kChoice, kNumber, "", "", "on: counts may be fractions, and the last child grows in proportion, so that searches see no jumps"},
+  {&P::relaxed_counts, "relaxed_counts", "1", {0, 1}, {0, 1}, kChoice, kNumber, "", "", "on: counts may be fractions, and the last child grows in proportion, so that searches see no jumps",
+   {.choices = kSwitch, .role = {Role::relaxed_counts}}},
 };
 // clang-format on
 
-struct ChoiceNames {
-  const char* name;
-  int first;
+std::vector<std::string> needs_of(const Definition& definition, int level) {
   std::vector<std::string> names;
-};
-
-const std::vector<ChoiceNames>& choice_names() {
-  static const std::vector<std::string> kCrownShapes = {
-      "conical", "spherical",       "hemispherical", "cylindrical", "tapered_cylindrical",
-      "flame",   "inverse_conical", "tend_flame",    "envelope"};
-  static const std::vector<ChoiceNames> kNames = {
-      {"shape", 0, kCrownShapes},
-      {"shape_2", 0, kCrownShapes},
-      {"leaf_shape",
-       0,
-       {"default", "ovate", "linear", "cordate", "maple", "palmate", "spiky_oak", "rounded_oak", "elliptic",
-        "rectangle", "triangle"}},
-      {"blossom_shape", 1, {"cherry", "orange", "magnolia"}},
-      {"relaxed_counts", 0, {"off", "on"}},
-  };
-  return kNames;
-}
-
-/// What a row's values need in order to mean anything: rows, of which one is not 0. "[n]" is the row's level.
-struct Need {
-  const char* name;
-  std::vector<const char*> rows;
-};
-
-const std::vector<Need>& needs() {
-  static const std::vector<Need> kNeeds = {{"shape_2", {"shape_mix"}},
-                                           {"split_angle", {"seg_splits[n]", "base_splits"}},
-                                           {"split_angle_v", {"seg_splits[n]", "base_splits"}},
-                                           {"leaf_shape", {"leaf_blos_num"}},
-                                           {"leaf_scale", {"leaf_blos_num"}},
-                                           {"leaf_scale_x", {"leaf_blos_num"}},
-                                           {"leaf_bend", {"leaf_blos_num"}},
-                                           {"blossom_shape", {"blossom_rate"}},
-                                           {"blossom_scale", {"blossom_rate"}},
-                                           {"prune_width", {"prune_ratio"}}};
-  return kNeeds;
-}
-
-/// Splits at the base are the trunk's alone.
-std::vector<std::string> needs_of(const ParameterInfo& row) {
-  std::vector<std::string> names;
-  for (const Need& need : needs())
-    if (row.name == need.name)
-      for (std::string name : need.rows)
-        if (name != "base_splits" || row.level == 0) {
-          if (name.ends_with("[n]")) name.replace(name.size() - 2, 1, std::to_string(row.level));
-          names.push_back(std::move(name));
-        }
+  for (const char* need : definition.facts.needs.at(level)) {
+    if (!need) break;
+    std::string& name = names.emplace_back(need);
+    if (name.ends_with("[n]")) name.replace(name.size() - 2, 1, std::to_string(level));
+  }
   return names;
 }
 
 /// Children are placed by the values of their own level, and leaves by those of the level below the last.
-int least_levels_of(const ParameterInfo& row) {
-  static const std::vector<std::string> kPlacing = {"down_angle", "down_angle_v", "rotate", "rotate_v",
-                                                    "branch_dist"};
-  if (row.level < 0) return 0;
-  return std::find(kPlacing.begin(), kPlacing.end(), row.name) == kPlacing.end() ? row.level + 1 : row.level;
+int least_levels_of(const Definition& definition, int level) {
+  if (level < 0) return 0;
+  return definition.facts.places ? level : level + 1;
 }
 
-FlagSides sides_of(const std::string& name) {
-  if (name == "branches" || name == "leaf_blos_num" || name == "base_splits") return FlagSides::one_measure;
-  return name == "rotate" ? FlagSides::unrelated : FlagSides::meet_at_zero;
+RoleOfLevel role_of(const Definition& definition, int level) {
+  const Role role = definition.facts.role.at(level);
+  return {role, goes_by_level(role) ? level : -1};
 }
 
 bool is_free(const Definition& definition, int level) {
@@ -168,35 +204,37 @@ bool is_free(const Definition& definition, int level) {
 double decimal_of(float value) { return std::stod(fmt::format("{}", value)); }
 
 ParameterInfo make_row(const Definition& definition, int level, float default_value) {
-  ParameterInfo row{.name = definition.name,
-                    .level = level,
-                    .unit = definition.unit,
-                    .lower = definition.valid.lower,
-                    .upper = definition.valid.upper,
-                    .search_lower = definition.search.lower,
-                    .search_upper = definition.search.upper,
-                    .scale = definition.scale,
-                    .sign = definition.sign,
-                    .default_value = decimal_of(default_value),
-                    .free_by_default = is_free(definition, level),
-                    .choices = {},
-                    .symbol = definition.symbol,
-                    .help = definition.help};
-  for (const ChoiceNames& choice : choice_names())
-    if (row.name == choice.name) row.choices = choice.names, row.first_choice = choice.first;
-  if (row.name == "branches" && level == 0) row.lower = 1, row.sign = SignMeaning::number;
-  row.sides = sides_of(row.name);
-  if (row.name == "taper") row.regimes = Regimes::taper;
-  if (row.name == "shape") row.mixed_with = "shape_2", row.mixed_by = "shape_mix";
-  row.least_levels = least_levels_of(row);
-  row.needs = needs_of(row);
-  row.relaxable = (row.name == "branches" && level > 0) || row.name == "leaf_blos_num";
-  return row;
+  const Facts& facts = definition.facts;
+  const Range valid = level == 0 ? facts.trunk_valid.value_or(definition.valid) : definition.valid;
+  return {.name = definition.name,
+          .level = level,
+          .unit = definition.unit,
+          .lower = valid.lower,
+          .upper = valid.upper,
+          .search_lower = definition.search.lower,
+          .search_upper = definition.search.upper,
+          .scale = definition.scale,
+          .sign = valid.lower < 0 ? definition.sign : SignMeaning::number,
+          .default_value = decimal_of(default_value),
+          .free_by_default = is_free(definition, level),
+          .relaxable = facts.relaxable && level != 0,
+          .choices = {facts.choices.begin(), facts.choices.end()},
+          .first_choice = facts.first_choice,
+          .sides = facts.sides,
+          .codec = facts.codec ? &facts.codec() : nullptr,
+          .least_levels = least_levels_of(definition, level),
+          .needs = needs_of(definition, level),
+          .mixed_with = facts.mixed_with,
+          .mixed_by = facts.mixed_by,
+          .role = role_of(definition, level),
+          .plain = facts.plain.at(level),
+          .symbol = definition.symbol,
+          .help = definition.help};
 }
 
 ParameterTable make_table() {
   const WeberPennParameters defaults;
-  ParameterTable table{"weber_penn", {}, "levels", "relaxed_counts"};
+  ParameterTable table{"weber_penn", {}};
   for (const Definition& definition : kDefinitions) {
     if (const auto* whole = std::get_if<PlantMember>(&definition.member))
       table.rows.push_back(make_row(definition, -1, defaults.*(*whole)));

@@ -35,7 +35,7 @@ float envelope_ratio(float r, const WeberPennParameters& parameters) {
   return std::pow((1 - r) / upper_part, parameters.prune_power_low);
 }
 
-/// Of a height in the tree: 0 at the crown's top, 1 at its base.
+/// Where in the crown a height in the tree is: 0 at the crown's top, 1 at its base.
 float crown_ratio(float z_m, float tree_scale_m, const WeberPennParameters& parameters) {
   return (tree_scale_m - z_m) / (tree_scale_m * (1 - parameters.base_size[0]));
 }

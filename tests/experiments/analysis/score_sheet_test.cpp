@@ -104,7 +104,7 @@ TEST(ScoreSheet, SettingsThatAreNoneAreRefused) {
     EXPECT_THAT(run.err, HasSubstr(words));
   };
   refused("secnds=2", "secnds");
-  refused("seconds=", "--set seconds=");
+  refused("seconds=", "--set: got 'seconds='");
   refused("seconds=-1", "seconds");
   refused("'trained=[1]'", "trained");
   refused("'groups={odd=[\"oak\"]}'", "'oak' in group 'odd'");

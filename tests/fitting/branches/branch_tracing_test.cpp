@@ -9,6 +9,10 @@
 #include <espalier/image/reading/medial_axes.h>
 #include <espalier/image/reading/roots.h>
 #include <espalier/overrides/change_graph.h>
+#include <espalier/overrides/overrides_toml.h>
+
+#include "support/lsystem_files.h"
+#include "support/toy_model.h"
 
 namespace espalier {
 namespace {
@@ -103,6 +107,70 @@ TEST_P(BranchTracing, Repeats) {
 INSTANTIATE_TEST_SUITE_P(Targets, BranchTracing,
                          testing::Values("oc_rpg11", "tr_crookedtree4", "tr_snowytree", "tr_blandbirch"),
                          [](const auto& info) { return std::string(info.param); });
+
+/// Traced from the defaults of the task's model.
+Solution traced_from_defaults(const FitTask& task) {
+  Solution start{.values = task.model->table().defaults()};
+  start.score = score_of(task, start);
+  return trace_branches(task, {.key = root_key(1)}, start);
+}
+
+TEST(BranchTracing, IsTheSameUnderOtherNames) {
+  FitTask task = task_of("tr_snowytree", 64);
+  const Solution original = traced_from_defaults(task);
+  const ToyModel toy;
+  task.model = &toy;
+  const Solution other = traced_from_defaults(task);
+  EXPECT_FALSE(original.overrides.empty());
+  EXPECT_EQ(ToyModel::translated(other.values), original.values);
+  EXPECT_EQ(other.score, original.score);
+  EXPECT_EQ(overrides_to_toml(other.overrides), overrides_to_toml(original.overrides));
+}
+
+TEST(BranchTracing, WhatBearsNoRolesStaysTheStart) {
+  FitTask task = task_of("tr_snowytree", 64);
+  const ToyWithoutRoles toy;
+  task.model = &toy;
+  const Solution traced = traced_from_defaults(task);
+  EXPECT_TRUE(traced.overrides.empty());
+  EXPECT_EQ(traced.values, toy.table().defaults());
+}
+
+/// Four branches on a bare pole that sways, in units of half a metre.
+std::string swaying_pole(const std::string& height_role) {
+  return "unit: 0.5\nparam tall = 4 in 1 .. 99 " + height_role + R"(
+param thick = 0.2 in 0.01 .. 9 role trunk_radius
+param sway = 20 in 0 .. 40 deg plain 0
+axiom: !(2*thick)F(tall/2)+(sway)F(tall/2)[+(50)!(thick)F(tall/4)][-(50)!(thick)F(tall/4)]
+)";
+}
+
+TEST(BranchTracing, AnLsystemThatDeclaresRolesIsLaidOnThePicture) {
+  FitTask task = task_of("tr_snowytree", 128);
+  task.model = &lsystem_model_of("pole.lsys", swaying_pole("role tree_scale"));
+  const MedialAxis trunk = medial_axes(without_roots(task.views[0].target.mask()), 0.03f * 128)[0];
+  const Solution traced = traced_from_defaults(task);
+  EXPECT_NEAR(traced.values[0], trunk.length_px * task.views[0].metres_per_px / 0.5, 1e-9);
+  EXPECT_EQ(traced.values[2], 0) << "plain";
+  const Plant plant = grown(task, traced), plain = grown(task, {.values = traced.values});
+  const auto distance_px = [&](const Plant& of) {
+    std::vector<PixelPoint> line;
+    for (std::size_t knot = of.stems.first_knot[0]; knot < of.stems.first_knot[1]; ++knot) {
+      const PicturePoint seen = project(task.views[0].camera, of.knots.point_m[knot]);
+      line.push_back({seen.x_px, seen.y_px});
+    }
+    const PixelPoint tip = line.back(), wanted = trunk.points.back();
+    return std::hypot(tip.x - wanted.x, tip.y - wanted.y);
+  };
+  EXPECT_LT(distance_px(plant), 0.06 * 128);
+  EXPECT_LE(distance_px(plant), distance_px(plain));
+}
+
+TEST(BranchTracing, AnLsystemThatDoesNotSayHowLongItsTrunkIsStaysTheStart) {
+  FitTask task = task_of("tr_snowytree", 64);
+  task.model = &lsystem_model_of("unknown_pole.lsys", swaying_pole(""));
+  EXPECT_TRUE(traced_from_defaults(task).overrides.empty());
+}
 
 TEST(ReachLimit, AllowsWhatIsAsDeepAsWideAndNothingOutsideOfTheFrame) {
   const FitTask task = task_of("tr_birch", 128);

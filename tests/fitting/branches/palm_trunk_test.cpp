@@ -7,12 +7,13 @@
 
 #include <espalier/fitting/branches/palm_trunk.h>
 #include <espalier/fitting/run/fit.h>
-#include <espalier/fitting/starts/picture_choice.h>
+#include <espalier/fitting/starts/fit_plan.h>
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 
 #include "support/run_espalier.h"
+#include "support/toy_model.h"
 
 namespace espalier {
 namespace {
@@ -71,7 +72,7 @@ TEST(TrunkLine, WhatHasNoBareTrunkHasNone) {
 FitRecord palm_record(const std::string& picture) {
   FitRecord record;
   record.views = {{fs::path(ESPALIER_SOURCE_DIR) / "targets" / (picture + ".png"), {}}};
-  record.kind = "auto";
+  record.kind = KindChoice::automatic;
   record.budget = {30, 0, 0, 2};
   return record;
 }
@@ -81,10 +82,10 @@ class PalmTrunk : public testing::TestWithParam<const char*> {};
 TEST_P(PalmTrunk, StandsOnTheLineOfThePicture) {
   FitRecord record = palm_record(GetParam());
   FitTask task = make_task(record);
-  hold_trunk(record, task);
+  hold_overrides(plan_of(record, task), task);
   ASSERT_FALSE(task.overrides.empty());
   const TrunkLine line = *read_trunk_line(task.views[0].target.mask());
-  for (const StartPoint& start : starts_for(record, task)) {
+  for (const StartPoint& start : plan_of(record, task).starts) {
     Plant plant;
     task.model->generate(start.values, task.plant_seeds.front(), task.growth, plant);
     std::vector<PixelPoint> trunk;
@@ -99,6 +100,24 @@ TEST_P(PalmTrunk, StandsOnTheLineOfThePicture) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfPictures, PalmTrunk, testing::Values("oc_palm", "tr_palmtree2", "reference_palm"));
+
+TEST(PalmTrunk, IsTheSameUnderOtherNames) {
+  const ToyModel toy;
+  const TrunkLine line{{{10, 100}, {14, 50}, {12, 20}}, 9, 6};
+  const auto fixed = palm_parameters(ToyModel::original().table(), line, 0.1);
+  const auto toy_fixed = palm_parameters(toy.table(), line, 0.1);
+  EXPECT_EQ(fixed.size(), 16u);
+  EXPECT_EQ(toy_fixed.size(), fixed.size());
+  for (const auto& [name, value] : fixed) EXPECT_EQ(toy_fixed.at(toy.name_of(name)), value) << name;
+  EXPECT_TRUE(can_hold_trunks(toy));
+  EXPECT_FALSE(can_hold_trunks(ToyWithoutRoles()));
+}
+
+TEST(PalmTrunk, ModelsNamePresetsOfTheirOwnWithFronds) {
+  ASSERT_FALSE(ToyModel::original().palm_presets().empty());
+  for (const std::string& name : ToyModel::original().palm_presets())
+    EXPECT_EQ(load_preset(name).model, ToyModel::original().table().model);
+}
 
 TEST(PalmFit, LeavesATreeOfTrunkAndFronds) {
   const fs::path run = fresh_folder("palm_fit") / "run";
@@ -118,7 +137,7 @@ TEST(PalmFit, IsLeftToTheUserWhoFreesOrStarts) {
   started.start = "quaking_aspen";
   for (FitRecord record : {freed, started}) {
     FitTask task = make_task(record);
-    hold_trunk(record, task);
+    hold_overrides(plan_of(record, task), task);
     EXPECT_TRUE(task.overrides.empty());
   }
 }

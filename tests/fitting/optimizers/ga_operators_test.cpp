@@ -84,16 +84,21 @@ TEST(PolynomialMutation, ChangesTheShareOfCoordinatesItsChanceSays) {
 }
 
 TEST(InheritRates, KeepTheGeometricMeanOnAverageAndTheirRanges) {
-  double log_chance = 0, log_eta = 0;
+  double log_chance = 0, log_eta = 0, square_chance = 0, square_eta = 0, product = 0;
   constexpr int kCount = 20000;
   Draws draws(root_key(1));
   for (int i = 0; i < kCount; ++i) {
     const MutationRates rates = inherit_rates({0.05, 10}, {0.2, 40}, 100, draws);
-    log_chance += std::log(rates.chance) / kCount;
-    log_eta += std::log(rates.eta) / kCount;
+    const double chance = std::log(rates.chance / 0.1), eta = std::log(rates.eta / 20);
+    log_chance += chance / kCount, square_chance += chance * chance / kCount;
+    log_eta += eta / kCount, square_eta += eta * eta / kCount;
+    product += chance * eta / kCount;
   }
-  EXPECT_NEAR(log_chance, std::log(0.1), 0.01);
-  EXPECT_NEAR(log_eta, std::log(20), 0.01);
+  EXPECT_NEAR(log_chance, 0, 0.01);
+  EXPECT_NEAR(log_eta, 0, 0.01);
+  EXPECT_NEAR(std::sqrt(square_chance), 0.22, 0.01);  // Baeck's learning rate
+  EXPECT_NEAR(std::sqrt(square_eta), 0.22, 0.01);
+  EXPECT_NEAR(product, 0, 0.003);  // each has its own draw
   MutationRates rates{0.5, 2};
   for (int i = 0; i < 1000; ++i) {
     rates = inherit_rates(rates, rates, 10, draws);
@@ -109,6 +114,19 @@ TEST(Tournament, WinsWithTheChanceOfTheBestOfItsSize) {
   for (int i = 0; i < kCount; ++i) wins += tournament(rank, 3, draws) == 1;
   const double chance = 1 - std::pow(0.75, 3);
   EXPECT_NEAR(wins, kCount * chance, 5 * std::sqrt(kCount * chance * (1 - chance)));
+}
+
+TEST(Tournament, OfOneIsUniformAndAWorseRankNeverBeatsABetter) {
+  const std::vector<std::size_t> rank = {3, 0, 2, 1};
+  std::vector<int> wins(4), wins_of_two(4);
+  Draws draws(root_key(2));
+  for (int i = 0; i < 16000; ++i)
+    ++wins[tournament(rank, 1, draws)], ++wins_of_two[tournament(rank, 2, draws)];
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double chance = (7 - 2 * double(rank[i])) / 16;  // best of two draws from four
+    EXPECT_NEAR(wins[i], 4000, 5 * std::sqrt(3000));
+    EXPECT_NEAR(wins_of_two[i], 16000 * chance, 5 * std::sqrt(16000 * chance * (1 - chance)));
+  }
 }
 
 TEST(Clearing, RanksTheCrowdAroundABetterOneLast) {

@@ -60,7 +60,7 @@ TEST(PermuteOneParameter, ChangeIsProportionalToTheParametersValue) {
       least = std::min(least, ratio);
       most = std::max(most, ratio);
     }
-    EXPECT_NEAR(least, value == -8 ? 0.5 : 0.5, 0.01) << value;
+    EXPECT_NEAR(least, 0.5, 0.01) << value;
     EXPECT_NEAR(most, value == -8 ? 1.25 : 1.5, 0.01) << value;  // -12 is clamped to the bound, -10
   }
 }
@@ -90,8 +90,13 @@ TEST(PermuteOneParameter, ZeroStaysUnlessZeroStepMovesIt) {
   for (int i = 0; i < 50; ++i) permute_one_parameter(sphere, numbers, draws, child);
   EXPECT_EQ(child[0], 0);
   numbers.zero_step = 0.1;
-  for (int i = 0; i < 50; ++i) permute_one_parameter(sphere, numbers, draws, child);
-  EXPECT_GT(child[0], 0);
+  double most = 0;
+  for (int i = 0; i < 500; ++i) {
+    child = {0};
+    permute_one_parameter(sphere, numbers, draws, child);
+    most = std::max(most, child[0]);
+  }
+  EXPECT_NEAR(most, 0.1, 0.002);  // of the box
 }
 
 TEST(MergeParents, TakesEachParameterFromEitherParentEquallyOften) {
@@ -113,6 +118,60 @@ TEST(MergeParents, MeanIsTheMeanOfTheValues) {
   const std::vector<double> merged = merge_parents(objective, numbers, draws, a, b);
   EXPECT_NEAR(objective.value_of(0, merged[0]), -2, 1e-12);
   EXPECT_EQ(merged[1], 0.3);
+}
+
+/// The children of the first generation from a start, in the objective's values.
+std::vector<double> first_children(const Signed& objective, double start, const OptimizerSettings& settings) {
+  Trace trace;
+  const std::vector<double> point(objective.dimension(), objective.unit_of(0, start));
+  optimizer_by_name("hewitt_ga").minimize(objective, settings, Budget{1 + 24}, point, 3, trace);
+  std::vector<double> children;
+  for (std::size_t i = 1; i < trace.points.size(); ++i)
+    children.push_back(objective.value_of(0, trace.points[i]));
+  return children;
+}
+
+TEST(HewittGa, HandsItsSettingsToItsOperators) {
+  const Signed objective(1);
+  for (double child : first_children(objective, 4, {{"step", 0}, {"flip_chance", 0}}))
+    EXPECT_NEAR(child, 4, 1e-12);
+  for (double child : first_children(objective, 4, {{"step", 0}, {"flip_chance", 1}}))
+    EXPECT_NEAR(child, -4, 1e-12);
+  double most = 0;
+  for (double child : first_children(objective, 4, {{"step", 0.01}, {"flip_chance", 0}}))
+    most = std::max(most, std::fabs(child - 4));
+  EXPECT_NEAR(most, 0.04, 0.01);
+  for (double child : first_children(objective, 0, {{"flip_chance", 0}})) EXPECT_NEAR(child, 0, 1e-12);
+  EXPECT_GT(first_children(objective, 0, {{"flip_chance", 0}, {"zero_step", 0.1}}).size(), 0u);
+  for (double child : first_children(objective, 0, {{"flip_chance", 0}, {"zero_step", 0.1}}))
+    EXPECT_NE(child, 0);
+}
+
+/// Of 30 parameters a child changes one, so the middle one of each among 24 children is their parent's.
+std::vector<double> parent_of(std::span<const double> children) {
+  std::vector<double> parent;
+  for (std::size_t i = 0; i < 30; ++i) {
+    std::vector<double> values;
+    for (std::size_t row = 0; row < 24; ++row) values.push_back(children[30 * row + i]);
+    std::nth_element(values.begin(), values.begin() + 12, values.end());
+    parent.push_back(values[12]);
+  }
+  return parent;
+}
+
+TEST(HewittGa, MergesTheTwoFittestByTheirMeanWhereItIsTold) {
+  Trace trace;
+  const std::vector<double> start(30, 0.9);
+  const OptimizerSettings settings = {{"merge_mean", 1}, {"flip_chance", 0}};
+  optimizer_by_name("hewitt_ga").minimize(Sphere(30), settings, Budget{1 + 24 * 2}, start, 3, trace);
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 1; i <= 24; ++i) order.push_back({trace.values[i], i});
+  std::sort(order.begin(), order.end());
+  const auto row = [&](std::size_t i) { return std::span(trace.points).subspan(30 * i, 30); };
+  const std::vector<double> parent = parent_of(std::span(trace.points).subspan(30 * 25));
+  EXPECT_EQ(changed(start, parent).size(), 2u);
+  for (std::size_t i = 0; i < 30; ++i)
+    EXPECT_NEAR(parent[i], (row(order[0].second)[i] + row(order[1].second)[i]) / 2, 1e-12) << i;
 }
 
 /// The best value of each generation of 24 in a run of hewitt_ga.

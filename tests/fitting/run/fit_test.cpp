@@ -84,7 +84,7 @@ TEST(Fit, SummarySaysWhatWasDone) {
   const auto summary = nlohmann::json::parse(read_text_file(run / "summary.json"));
   EXPECT_EQ(summary["evaluations"], 40);
   EXPECT_EQ(summary["stopped_by"], "evaluations");
-  EXPECT_EQ(summary["iou"], result.metrics.iou);
+  EXPECT_EQ(summary["iou"], result.metrics["iou"]);
   EXPECT_LE(summary["embree_disagreement_pixels"], 2);
   EXPECT_EQ(summary["optimizer"], "cma_es");
   EXPECT_EQ(summary["seed"], 1);
@@ -100,7 +100,7 @@ TEST(Fit, BestIsAPresetThatGrowsTheBestMask) {
   const Preset best = load_preset((run / "best.toml").string());
   EXPECT_EQ(best.values, result.values);
   const TargetPicture drawn = read_mask(run / "best.png"), target = read_mask(run / "target.png");
-  EXPECT_DOUBLE_EQ(iou(drawn.mask, target.mask), result.metrics.iou);
+  EXPECT_DOUBLE_EQ(iou(drawn.mask, target.mask), result.metrics["iou"]);
 }
 
 TEST(Fit, IsNeverWorseThanItsBestStart) {
@@ -145,7 +145,7 @@ TEST(Fit, ARunThatWasStoppedRepeatsByItsCountWithEveryOptimizer) {
     if (optimizer->max_dimension() < 20) record.search.free = {"g_scale", "ratio"};
     const fs::path stopped = new_run("stopped"), repeated = new_run("repeated");
     const FitResult first = fit(record, stopped, stopping_after(12));
-    EXPECT_EQ(first.stopped_by, "interrupted") << record.optimizer;
+    EXPECT_EQ(first.stopped_by, FitStop::interrupted) << record.optimizer;
     const RecordedRun recorded = read_record(stopped / "run.toml");
     ASSERT_TRUE(recorded.outcome);
     record.budget = {recorded.outcome->evaluations, 0, 0};
@@ -210,7 +210,7 @@ TEST(Fit, StopsAtTheTargetFitness) {
   FitRecord record = small_record(500);
   record.budget.target_fitness = 0.05;
   const FitResult result = fit(record, new_run("reached"));
-  EXPECT_EQ(result.stopped_by, "target_fitness");
+  EXPECT_EQ(result.stopped_by, FitStop::target_fitness);
   EXPECT_LT(result.evaluations, 500);
 }
 
@@ -218,7 +218,7 @@ TEST(Fit, StopsByTimeWithAResult) {
   FitRecord record = small_record(0);
   record.budget.seconds = 1e-6;
   const FitResult result = fit(record, new_run("time"));
-  EXPECT_EQ(result.stopped_by, "time");
+  EXPECT_EQ(result.stopped_by, FitStop::time);
   EXPECT_GE(result.evaluations, 1);
 }
 

@@ -78,7 +78,7 @@ TEST_P(Recovery, AFitFromOtherSpeciesIsAsCloseAsAnotherSeedOfTheTruth) {
   record.start = presets_without(GetParam());
   const FitResult result = fit(record, folder / "run");
 
-  EXPECT_GE(result.metrics.iou, truth.mean_iou_of_other_seeds(10)) << "best start: " << result.best_start;
+  EXPECT_GE(result.metrics["iou"], truth.mean_iou_of_other_seeds(10)) << "best start: " << result.best_start;
 }
 
 INSTANTIATE_TEST_SUITE_P(Species, Recovery, testing::Values("quaking_aspen", "small_pine", "black_tupelo"),

@@ -26,7 +26,7 @@ FitRecord staged_record(long rounds, const std::string& picture = "tr_birch") {
   record.budget = {60, 0, 0, rounds};
   record.growth = {150, 600};
   record.start = "quaking_aspen";
-  record.kind = "auto";
+  record.kind = KindChoice::automatic;
   return record;
 }
 
@@ -68,7 +68,7 @@ TEST(StagedFit, TheRefinementIsNotWorseThanTheSearch) {
   EXPECT_EQ(refined.values, searched.values);
   EXPECT_FALSE(refined.overrides.empty());
   EXPECT_GT(refined.branch_steps, 1000);
-  EXPECT_EQ(refined.stopped_by, "rounds");
+  EXPECT_EQ(refined.stopped_by, FitStop::rounds);
 }
 
 TEST(StagedFit, ThePresetItLeavesGrowsTheSamePicture) {
@@ -82,8 +82,8 @@ TEST(StagedFit, ThePresetItLeavesGrowsTheSamePicture) {
     const Regrown full = regrown(run, kFullSize_px);
     const MaskMetrics metrics = compare_masks(full.mask, full.target);
     const auto reported = summary_of(run)["full_size"];
-    EXPECT_NEAR(reported["iou"], metrics.iou, 1e-6) << "trained: " << train;
-    EXPECT_NEAR(reported["outline_iou"], metrics.outline_iou, 1e-6) << "trained: " << train;
+    EXPECT_NEAR(reported["iou"], metrics["iou"], 1e-6) << "trained: " << train;
+    EXPECT_NEAR(reported["outline_iou"], metrics["outline_iou"], 1e-6) << "trained: " << train;
   }
 }
 
@@ -107,7 +107,7 @@ TEST(StagedFit, AnLsystemIsRefinedBranchByBranchToo) {
 
 TEST(StagedFit, ALeaflessPictureIsNotTracedByAnLsystem) {
   FitRecord record = lsystem_record(1);
-  record.kind = "leafless";
+  record.kind = KindChoice::leafless;
   const FitResult searched = fit(lsystem_record(0), new_run("lsystem_leafless_search")),
                   refined = fit(record, new_run("lsystem_leafless"));
   EXPECT_GE(refined.fitness, searched.fitness);
@@ -199,7 +199,7 @@ TEST(StagedFit, TheStartsAloneChangeNothing) {
   FitRecord record = staged_record(3);
   record.stages = parse_stages("starts");
   const FitResult result = fit(record, new_run("starts_alone"));
-  EXPECT_EQ(result.stopped_by, "stages");
+  EXPECT_EQ(result.stopped_by, FitStop::stages);
   EXPECT_EQ(result.evaluations, 1);
   EXPECT_EQ(result.branch_steps, 0);
 }

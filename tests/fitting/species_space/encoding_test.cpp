@@ -106,6 +106,65 @@ TEST(Encoding, ClampsAndSaysSo) {
   EXPECT_EQ(decoded.values[row], 0.99);
 }
 
+/// Sign and size.
+class SignCodec : public ParameterCodec {
+ public:
+  CodedNames names(const ParameterInfo& row) const override {
+    return {{{row.name + " size"}}, {row.name + " sign"}};
+  }
+  void write(const ParameterInfo&, double value, CodedFields fields) const override {
+    *fields.numbers = std::fabs(value);
+    *fields.choices = value < 0 ? -1 : 1;
+  }
+  double read(const ParameterInfo& row, CodedFields fields,
+              std::vector<ClampedValue>& clamped) const override {
+    return *fields.choices * read_magnitude(row, *fields.numbers, clamped);
+  }
+};
+
+TEST(Encoding, ARowIsWrittenByTheCodecItNames) {
+  const SignCodec codec;
+  ParameterTable toy{"toy", {}};
+  toy.rows.resize(2);
+  toy.rows[1].name = "tilt";
+  toy.rows[1].lower = -9, toy.rows[1].upper = 9;
+  toy.rows[1].codec = &codec;
+  const auto encoding = make_encoding("monotone", toy);
+  ASSERT_EQ(encoding->columns().size(), 2u);
+  EXPECT_EQ(encoding->columns()[1].name, "tilt size");
+  EXPECT_EQ(encoding->choices()[0].name, "tilt sign");
+  EncodedValues encoded = encoding->encode({0, -3});
+  EXPECT_EQ(encoded.numbers[1], 3);
+  EXPECT_EQ(encoding->decode(encoded).values[1], -3);
+  encoded.numbers[1] = -2;
+  const DecodedValues decoded = encoding->decode(encoded);
+  EXPECT_EQ(decoded.values[1], 0);
+  ASSERT_EQ(decoded.clamped.size(), 1u);
+  EXPECT_EQ(decoded.clamped[0].parameter, "tilt");
+}
+
+TEST(Encoding, ATaperIsNarrowingSwellingAndTheFormOfItsEnd) {
+  const auto encoding = make_encoding("monotone", table());
+  ParameterValues values = table().defaults();
+  const std::size_t row = table().index_of("taper[0]");
+  const auto column = [&](const EncodedValues& encoded, const std::string& name) {
+    for (std::size_t i = 0; i < encoded.numbers.size(); ++i)
+      if (encoding->columns()[i].name == name) return encoded.numbers[i];
+    ADD_FAILURE() << "no column " << name;
+    return 0.0;
+  };
+  const struct {
+    double taper, narrowing, swelling;
+  } kCases[] = {{0.75, 0.75, 0}, {1.5, 0.5, 0}, {2.25, 0, 0.25}};
+  for (const auto& expected : kCases) {
+    values[row] = expected.taper;
+    const EncodedValues encoded = encoding->encode(values);
+    EXPECT_EQ(column(encoded, "taper[0] narrowing"), expected.narrowing);
+    EXPECT_EQ(column(encoded, "taper[0] swelling"), expected.swelling);
+    EXPECT_EQ(encoding->decode(encoded).values[row], expected.taper);
+  }
+}
+
 TEST(Encoding, RefusesAnUnknownName) { EXPECT_THROW(make_encoding("pca", table()), InputError); }
 
 }  // namespace

@@ -1,15 +1,19 @@
 // Ranges and starts to the measure of a picture.
 #include <gtest/gtest.h>
 
+#include <espalier/fitting/starts/fit_plan.h>
 #include <espalier/fitting/starts/measured_start.h>
-#include <espalier/fitting/starts/picture_choice.h>
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+
+#include "support/lsystem_files.h"
+#include "support/toy_model.h"
 
 namespace espalier {
 namespace {
 
-FitRecord record_of(const std::string& target, const std::string& kind = "auto") {
+FitRecord record_of(const std::string& target, KindChoice kind = KindChoice::automatic) {
   FitRecord record;
   record.views = {{std::filesystem::path(ESPALIER_SOURCE_DIR) / "targets" / (target + ".png"), {}}};
   record.target.size_px = 64;
@@ -17,15 +21,20 @@ FitRecord record_of(const std::string& target, const std::string& kind = "auto")
   return record;
 }
 
+/// Of a leafy Weber–Penn tree, 10 m tall.
+std::map<std::string, SearchRange> ranges_of(const PictureReading& reading) {
+  return measured_ranges(model_by_name("weber_penn").table(), reading, TreeKind::leafy, 10);
+}
+
 class MeasuredStart : public testing::TestWithParam<const char*> {};
 
 TEST_P(MeasuredStart, EveryStartIsInTheRangesAndValid) {
   FitRecord record = record_of(GetParam());
   const FitTask task = make_task(record);
-  const SearchChoice choice = choice_for(record, task);
+  const SearchChoice choice = plan_of(record, task).choice;
   ASSERT_FALSE(choice.ranges.empty());
   const ParameterTable& table = task.model->table();
-  for (const StartPoint& start : starts_for(record, task))
+  for (const StartPoint& start : plan_of(record, task).starts)
     for (const auto& [name, range] : choice.ranges) {
       const double value = start.values[table.index_of(name)];
       if (choice.fixed.contains(name)) continue;
@@ -37,9 +46,9 @@ TEST_P(MeasuredStart, EveryStartIsInTheRangesAndValid) {
 TEST_P(MeasuredStart, TheSearchStaysInTheRanges) {
   FitRecord record = record_of(GetParam());
   const FitTask task = make_task(record);
-  const SearchChoice choice = choice_for(record, task);
+  const SearchChoice choice = plan_of(record, task).choice;
   const SearchSpace space =
-      make_search_space(task.model->table(), starts_for(record, task).front().values, choice);
+      make_search_space(task.model->table(), plan_of(record, task).starts.front().values, choice);
   for (const FreeParameter& free : space.free)
     if (const auto range = choice.ranges.find(free.name); range != choice.ranges.end()) {
       EXPECT_GE(value_at(free, 0), range->second.lower) << free.name;
@@ -52,36 +61,36 @@ INSTANTIATE_TEST_SUITE_P(Targets, MeasuredStart,
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(MeasuredStart, AnyKindIsLeftAsItIs) {
-  FitRecord record = record_of("tr_fir", "any");
-  EXPECT_TRUE(choice_for(record, make_task(record)).ranges.empty());
+  FitRecord record = record_of("tr_fir", KindChoice::any);
+  EXPECT_TRUE(plan_of(record, make_task(record)).choice.ranges.empty());
 }
 
 TEST(MeasuredStart, WhatTheUserFreesHeSearchesInFull) {
   FitRecord record = record_of("tr_fir");
   record.search.free = {"ratio", "length[1]"};
-  EXPECT_TRUE(choice_for(record, make_task(record)).ranges.empty());
+  EXPECT_TRUE(plan_of(record, make_task(record)).choice.ranges.empty());
 }
 
 TEST(MeasuredStart, AThickTrunkHasThinBranches) {
   const PictureReading thick{.trunk_width = 0.3, .crown_base = 0.3, .crown_width = 0.8},
       thin{.trunk_width = 0.03, .crown_base = 0.3, .crown_width = 0.8};
-  const auto of_thick = measured_ranges(thick, TreeKind::leafy, 10);
-  const auto of_thin = measured_ranges(thin, TreeKind::leafy, 10);
+  const auto of_thick = ranges_of(thick);
+  const auto of_thin = ranges_of(thin);
   EXPECT_GT(of_thick.at("ratio").lower, of_thin.at("ratio").upper);
   EXPECT_LT(of_thick.at("radius_mod[1]").upper, of_thin.at("radius_mod[1]").upper);
 }
 
 TEST(MeasuredStart, WhatIsAsWideAsTheCrownIsNoTrunk) {
   const PictureReading crown{.trunk_width = 0.5, .crown_base = 1, .crown_width = 0.6};
-  EXPECT_LE(measured_ranges(crown, TreeKind::leafy, 10).at("ratio").upper, 0.03);
+  EXPECT_LE(ranges_of(crown).at("ratio").upper, 0.03);
 }
 
 TEST(MeasuredStart, ATrunkFlaresNoMoreThanItsFoot) {
   PictureReading straight{.trunk_width = 0.06, .foot_width = 0.06, .crown_base = 0.3, .crown_width = 0.8},
       flared = straight;
   flared.foot_width = 0.12;
-  EXPECT_LE(measured_ranges(straight, TreeKind::leafy, 10).at("flare").upper, 0.1);
-  EXPECT_NEAR(measured_ranges(flared, TreeKind::leafy, 10).at("flare").upper, 1, 1e-9);
+  EXPECT_LE(ranges_of(straight).at("flare").upper, 0.1);
+  EXPECT_NEAR(ranges_of(flared).at("flare").upper, 1, 1e-9);
 }
 
 TEST(MeasuredStart, AStartTakesTheWidthOfTheCrown) {
@@ -89,7 +98,7 @@ TEST(MeasuredStart, AStartTakesTheWidthOfTheCrown) {
   const FitTask task = make_task(record);
   const PictureReading reading = read_picture(task.views[0].target.mask());
   ASSERT_LT(reading.crown_width, 0.5);
-  for (const StartPoint& start : starts_for(record, task)) {
+  for (const StartPoint& start : plan_of(record, task).starts) {
     if (start.name != "quaking_aspen") continue;
     Plant plant;
     task.model->generate(start.values, 1, {record.growth, nullptr}, plant);
@@ -100,14 +109,71 @@ TEST(MeasuredStart, AStartTakesTheWidthOfTheCrown) {
 
 TEST(MeasuredStart, ACrownDownToTheGroundMayBeginThere) {
   PictureReading reading{.trunk_width = 0.4, .foot_width = 0.5, .crown_base = 0.6, .crown_width = 0.7};
-  EXPECT_EQ(measured_ranges(reading, TreeKind::leafy, 10).at("base_size[0]").lower, 0);
+  EXPECT_EQ(ranges_of(reading).at("base_size[0]").lower, 0);
 }
 
 TEST(MeasuredStart, AMoundUnderTheTrunkMayBeFilledByTheTree) {
   PictureReading reading{.trunk_width = 0.1, .foot_width = 0.2, .crown_base = 0.4, .crown_width = 0.7};
-  EXPECT_GT(measured_ranges(reading, TreeKind::leafy, 10).at("base_size[0]").lower, 0);
+  EXPECT_GT(ranges_of(reading).at("base_size[0]").lower, 0);
   reading.stand_height = 0.1;
-  EXPECT_EQ(measured_ranges(reading, TreeKind::leafy, 10).at("base_size[0]").lower, 0);
+  EXPECT_EQ(ranges_of(reading).at("base_size[0]").lower, 0);
+}
+
+constexpr PictureReading kSeen{
+    .trunk_width = 0.06, .foot_width = 0.08, .crown_base = 0.3, .crown_width = 0.8};
+
+TEST(MeasuredStart, RangesAreTheSameUnderOtherNames) {
+  const ToyModel toy;
+  for (const TreeKind kind : {TreeKind::leafy, TreeKind::leafless, TreeKind::palm}) {
+    const auto ranges = measured_ranges(ToyModel::original().table(), kSeen, kind, 10);
+    const auto toy_ranges = measured_ranges(toy.table(), kSeen, kind, 10);
+    EXPECT_FALSE(ranges.empty());
+    EXPECT_EQ(toy_ranges.size(), ranges.size());
+    for (const auto& [name, range] : ranges) {
+      const SearchRange& other = toy_ranges.at(toy.name_of(name));
+      EXPECT_EQ(other.lower, range.lower) << name;
+      EXPECT_EQ(other.upper, range.upper) << name;
+    }
+  }
+}
+
+TEST(MeasuredStart, StartsAreTheSameUnderOtherNames) {
+  const ToyModel toy;
+  const ParameterValues before = load_preset("small_pine").values;
+  ParameterValues values = before, toy_values = ToyModel::translated(before);
+  take_measures(ToyModel::original(), {}, kSeen, 10, 1, values);
+  take_measures(toy, {}, kSeen, 10, 1, toy_values);
+  EXPECT_NE(values, before);
+  EXPECT_EQ(ToyModel::translated(toy_values), values);
+}
+
+TEST(MeasuredStart, WhatBearsNoRolesIsLeftAsItIs) {
+  const ToyWithoutRoles toy;
+  ParameterValues values = toy.table().defaults();
+  take_measures(toy, {}, kSeen, 10, 1, values);
+  EXPECT_EQ(values, toy.table().defaults());
+  EXPECT_TRUE(measured_ranges(toy.table(), kSeen, TreeKind::leafy, 10).empty());
+}
+
+TEST(MeasuredStart, ARangeThatNoValidValueLiesInIsNone) {
+  ParameterTable table = ToyModel::original().table();
+  table.rows[*table.find(Role::leaf_count)].upper = 5;
+  EXPECT_FALSE(measured_ranges(table, kSeen, TreeKind::leafy, 10).contains("leaf_blos_num"));
+}
+
+TEST(MeasuredStart, AnLsystemThatDeclaresRolesIsMeasured) {
+  const Model& model = lsystem_model_of("measured.lsys", R"(unit: 0.5
+param thick = 0.1 in 0.01 .. 9 role trunk_radius
+param bare = 0.1 in 0 .. 0.9 role crown_base
+param reach = 4 in 0.5 .. 20 role branch_length
+axiom: !(2*thick)F(10*bare)[+(90)!(0.1)F(reach)][-(90)!(0.1)F(reach)]F(10 - 10*bare)
+)");
+  ParameterValues values = model.table().defaults();
+  take_measures(model, {}, kSeen, 5, 1, values);
+  EXPECT_NEAR(values[0], 0.45 * kSeen.trunk_width * 5 / 0.5, 1e-9) << "units of half a metre";
+  EXPECT_EQ(values[1], kSeen.crown_base);
+  EXPECT_NE(values[2], 4);
+  EXPECT_TRUE(measured_ranges(model.table(), kSeen, TreeKind::leafy, 5).contains("bare"));
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 
+#include "support/toy_model.h"
+
 namespace espalier {
 namespace {
 
@@ -70,6 +72,28 @@ TEST(StartPoints, ScalingMovesMetresOnly) {
   scale_plant(table(), 2, values);
   EXPECT_EQ(values[table().index_of("g_scale")], 26);
   EXPECT_EQ(values[table().index_of("ratio")], table().defaults()[table().index_of("ratio")]);
+}
+
+TEST(StartPoints, AreTheSameUnderOtherNames) {
+  const ToyModel toy;
+  const GrowthBudget budget{2'000, 5'000};
+  ParameterValues values = load_preset("quaking_aspen").values;
+  ParameterValues toy_values = ToyModel::translated(values);
+  prepare_start(model(), budget, 7, 1, values);
+  prepare_start(toy, budget, 7, 1, toy_values);
+  EXPECT_EQ(ToyModel::translated(toy_values), values);
+  ASSERT_TRUE(has_leaves(toy.table(), toy_values));
+  take_leaves(toy.table(), toy_values);
+  EXPECT_EQ(ToyModel::translated(toy_values)[table().index_of("leaf_blos_num")], 0);
+}
+
+TEST(StartPoints, LeavesThatMayNotBeNoneAreNotTaken) {
+  ParameterTable bearing = table();
+  bearing.rows[*bearing.find(Role::leaf_count)].lower = 1;
+  ParameterValues values = table().defaults();
+  EXPECT_FALSE(has_leaves(bearing, values));
+  take_leaves(bearing, values);
+  EXPECT_EQ(values, table().defaults());
 }
 
 TEST(StartPoints, RefuseUnknownPresets) { EXPECT_THROW(starts("quaking_aspn"), InputError); }

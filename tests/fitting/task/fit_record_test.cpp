@@ -31,7 +31,7 @@ FitRecord full_record() {
   record.seed = 18446744073709551615ull;
   record.start = "palm";
   record.search = {{"g_scale", "curve*"}, {{"curve_v[1]", -0.1}, {"levels", 3}}};
-  record.kind = "palm";
+  record.kind = KindChoice::palm;
   record.train_to_target = true;
   record.budget.branch_rounds = 17;
   record.budget.finish_from = 9;
@@ -74,7 +74,7 @@ std::string checking_error(const std::function<void(FitRecord&)>& spoil) {
 }
 
 TEST(FitRecord, ReadsBackWhatItWrote) {
-  const std::string text = record_to_toml(full_record(), FitOutcome{77, 5, 3, "time"});
+  const std::string text = record_to_toml(full_record(), FitOutcome{77, 5, 3, FitStop::time});
   const auto [record, outcome] = through_file(text);
   EXPECT_EQ(record_to_toml(record, outcome), text);
   EXPECT_EQ(record.seed, full_record().seed);
@@ -112,7 +112,9 @@ TEST(FitRecord, OfEarlierVersionsHasNoBranchRounds) {
 }
 
 TEST(FitRecord, RefusesRoundsWithoutEndAndUnknownKinds) {
-  EXPECT_THAT(checking_error([](FitRecord& r) { r.kind = "bush"; }), HasSubstr("got 'bush', expected auto"));
+  const std::string text = record_to_toml(full_record(), {});
+  EXPECT_THAT(reading_error(replaced(text, "kind = \"palm\"", "kind = \"bush\"")),
+              HasSubstr("got 'bush', expected auto"));
   EXPECT_THAT(checking_error([](FitRecord& r) {
                 r.budget = {100, 0, 0, kWhileTimeLasts};
               }),

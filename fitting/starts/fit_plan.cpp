@@ -1,0 +1,135 @@
+#include <fmt/ranges.h>
+
+#include <optional>
+
+#include <espalier/fitting/branches/palm_trunk.h>
+#include <espalier/fitting/starts/fit_plan.h>
+#include <espalier/fitting/starts/measured_start.h>
+#include <espalier/fitting/task/record_task.h>
+#include <espalier/image/reading/roots.h>
+
+namespace espalier {
+
+namespace {
+
+/// Where fits of palms start: from what the model has with fronds.
+std::string palm_starts(const Model& model, const std::string& start) {
+  const std::vector<std::string> presets = model.palm_presets();
+  return presets.empty() ? start : fmt::format("{}", fmt::join(presets, ","));
+}
+
+/// Makes the parts of a plan in their order: each may look at those before it.
+class Planner {
+ public:
+  Planner(const FitRecord& record, const FitTask& task)
+      : record_(record),
+        task_(task),
+        table_(task.model->table()),
+        reading_(task.views.front().reading),
+        height_m_(target_height_m(record)) {}
+
+  FitPlan plan() {
+    plan_.kind = record_.kind == KindChoice::automatic ? choice_of(reading_.kind) : record_.kind;
+    plan_.shares = shares_of(plan_.kind);
+    plan_.choice = record_.search;
+    trunk_ = held_trunk();
+    if (record_.search.free.empty()) restrict_choice();
+    plan_.starts = starts();
+    if (trunk_) plan_.held = lay_palm_trunk(task_, *trunk_, plan_.starts.front().values);
+    return std::move(plan_);
+  }
+
+ private:
+  /// Whether the picture is to say anything.
+  bool is_read() const { return record_.kind != KindChoice::any; }
+  bool starts_are_ours() const { return record_.start == "auto"; }
+
+  /// The trunk that a palm is held to; none where the user says how to search, or the model has no such
+  /// trunks.
+  std::optional<TrunkLine> held_trunk() const {
+    const bool is_left_to_us = starts_are_ours() && record_.search.free.empty() && record_.fit_seeds == 1;
+    if (!is_left_to_us || plan_.kind != KindChoice::palm || !can_hold_trunks(*task_.model))
+      return std::nullopt;
+    return read_trunk_line(without_roots(task_.views.front().target.mask()));
+  }
+
+  /// Where the model has the parameter and the user says nothing of it.
+  void fix(const std::string& name, double value) {
+    if (table_.find(name)) plan_.choice.fixed.insert({name, value});
+  }
+
+  void fix(Role role, double value) {
+    const auto row = table_.find(role);
+    if (row && value >= table_.rows[*row].lower && value <= table_.rows[*row].upper)
+      fix(table_.rows[*row].full_name(), value);
+  }
+
+  void restrict_choice() {
+    if (plan_.kind == KindChoice::leafless) fix(Role::leaf_count, 0);
+    if (!is_read()) return;
+    if (record_.kind == KindChoice::automatic && reading_.trunks == 1) fix(Role::trunk_count, 1);
+    plan_.choice.ranges = measured_ranges(table_, reading_, stated_kind(plan_.kind).value(), height_m_);
+    if (!trunk_) return;
+    for (const auto& [name, value] : palm_parameters(table_, *trunk_, task_.views.front().metres_per_px))
+      fix(name, value);
+  }
+
+  std::vector<StartPoint> starts() const {
+    if (!record_.stages.search && !starts_are_ours()) return presets_as_written(table_, record_.start);
+    std::vector<StartPoint> starts =
+        make_start_points(*task_.model, trunk_ ? palm_starts(*task_.model, record_.start) : record_.start,
+                          plan_.choice, record_.growth, height_m_, task_.plant_seeds.front());
+    for (StartPoint& start : starts) {
+      if (is_read() && starts_are_ours()) measure(start.values);
+      keep_in_ranges(table_, plan_.choice, start.values);
+      if (trunk_) fix_trunk(start.values);
+      apply_fixed(table_, plan_.choice, start.values);
+    }
+    return starts;
+  }
+
+  void measure(ParameterValues& values) const {
+    const Seed seed = task_.plant_seeds.front();
+    take_measures(*task_.model, record_.growth, reading_, height_m_, seed, values);
+    prepare_start(*task_.model, record_.growth, height_m_, seed, values);
+  }
+
+  /// Fronds stay as long as they are while the trunk gets another length.
+  void fix_trunk(ParameterValues& values) const {
+    const std::size_t scale = *table_.find(Role::tree_scale);
+    const double before_m = values[scale];
+    apply_fixed(table_, plan_.choice, values);
+    if (const auto frond = table_.find(Role::branch_length, 1))
+      set_role(table_, {Role::branch_length, 1}, values[*frond] * before_m / values[scale], values);
+  }
+
+  const FitRecord& record_;
+  const FitTask& task_;
+  const ParameterTable& table_;
+  const PictureReading& reading_;
+  double height_m_;
+  std::optional<TrunkLine> trunk_;
+  FitPlan plan_;
+};
+
+}  // namespace
+
+StageShares shares_of(KindChoice kind) {
+  // A search of 20 % does as well as one of 40 % (experiments/closeness.md). Leafless trees gain most by what
+  // follows, where their branches are traced; their share was chosen on the bundled leafless pictures, and
+  // was not varied since.
+  constexpr double kSearch = 0.4, kSearchOfLeafless = 0.15;
+  constexpr double kBeforeFinish = 0.6;  // chosen in experiments/closeness.md
+  return {kind == KindChoice::leafless ? kSearchOfLeafless : kSearch, kBeforeFinish};
+}
+
+FitPlan plan_of(const FitRecord& record, const FitTask& task) { return Planner(record, task).plan(); }
+
+void hold_overrides(const FitPlan& plan, FitTask& task) {
+  if (plan.held.empty()) return;
+  task.overrides = plan.held;
+  task.changes = std::make_shared<const ChangeGraph>(task.overrides);
+  task.growth.changes = task.changes.get();
+}
+
+}  // namespace espalier

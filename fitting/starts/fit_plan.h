@@ -1,0 +1,41 @@
+// What is settled before a fit begins, once and in one place: the kind of tree, what is searched and in which
+// ranges, where the search starts, which overrides all candidates bear, and how the time is shared out. The
+// picture has been read by then (TargetView::reading). What the user frees or fixes is left to the user.
+#pragma once
+#include <string>
+#include <vector>
+
+#include <espalier/fitting/starts/start_points.h>
+#include <espalier/fitting/task/fit_record.h>
+#include <espalier/fitting/task/fit_task.h>
+
+namespace espalier {
+
+/// How a run's time is shared out among its stages.
+struct StageShares {
+  double search = 0;         ///< of the whole, where refinement follows for as long as time lasts
+  double before_finish = 0;  ///< of the rounds, or the time, that the refinement gets
+};
+
+StageShares shares_of(KindChoice kind);
+
+struct FitPlan {
+  KindChoice kind = KindChoice::any;  ///< the record's; where that is automatic, the first picture's
+  /// The record's choice and what the kind adds to it, unless that is any: no leaves on a leafless tree,
+  /// plausible ranges (measured_start.h), one trunk where the picture shows one foot.
+  SearchChoice choice;
+  /// The record's starts, of a palm those with fronds: thinned, as tall as the target, and to the measure of
+  /// the picture. Presets that are named are as they are written where nothing is searched.
+  std::vector<StartPoint> starts;
+  /// Of all candidates: the trunk of a palm, which lies on the picture's (branches/palm_trunk.h).
+  Overrides held;
+  StageShares shares;
+};
+
+/// Throws InputError where a start is no preset of the model.
+FitPlan plan_of(const FitRecord& record, const FitTask& task);
+
+/// Gives all candidates of the task the overrides that the plan holds.
+void hold_overrides(const FitPlan& plan, FitTask& task);
+
+}  // namespace espalier

@@ -1,0 +1,322 @@
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include <espalier/core/assignment.h>
+#include <espalier/core/field_error.h>
+#include <espalier/fitting/optimizers/search_method.h>
+#include <espalier/fitting/task/fit_options.h>
+#include <espalier/fitting/task/species_components.h>
+#include <espalier/image/measures/objective.h>
+#include <espalier/models/models.h>
+
+namespace espalier {
+
+namespace {
+
+constexpr double kManyEvaluations = 1e15, kManySeconds = 1e9, kManyRounds = 1e9;
+
+void check_optimizer(const FitRecord& record) { optimizer_by_name(record.optimizer); }
+
+void check_settings(const FitRecord& record) {
+  complete_settings(record.optimizer, optimizer_by_name(record.optimizer).settings(),
+                    record.optimizer_settings);
+}
+
+void check_objective(const FitRecord& record) {
+  try {
+    parse_objective(record.objective);
+  } catch (const InputError& error) {
+    throw_input_error("got '{}', expected a weighted sum of measures ({})", record.objective, error.what());
+  }
+}
+
+void check_space(const FitRecord& record) { parse_search_space(record.space); }
+
+void check_views(const FitRecord& record) {
+  if (record.views.empty()) throw_input_error("got no picture, expected at least one");
+  for (const ViewRecord& view : record.views) check_view(view);
+}
+
+bool has_space(const FitRecord& record) { return !record.space.empty(); }
+
+/// Of a parameter, or of all that a pattern names.
+double parameter_value(const FitRecord& record, const std::string& name, const std::string& text) {
+  const ParameterTable& table = model_by_name(record.model).table();
+  const std::vector<std::size_t> rows = rows_matching(table, name, "search.fixed");
+  const double value = parse_parameter_value(table.rows[rows[0]], text);
+  for (const std::size_t row : rows)
+    if (parse_parameter_value(table.rows[row], text) != value)
+      throw_input_error("got '{}' for {}, expected a number: it is not the same for all of them", text, name);
+  return value;
+}
+
+double setting_value(const FitRecord&, const std::string& name, const std::string& text) {
+  const auto value = parse_decimal(text);
+  if (!value) throw_input_error("got '{}' for {}, expected a decimal number", text, name);
+  return *value;
+}
+
+std::string help_of_optimizers() {
+  std::vector<std::string> methods;
+  for (const auto& optimizer : all_optimizers()) methods.push_back(optimizer->name());
+  return fmt::format("method of the search: {}", fmt::join(methods, ", "));
+}
+
+std::string help_of_objectives() {
+  return fmt::format("weighted sum of measures to minimise: {}", fmt::join(objective_names(), ", "));
+}
+
+std::vector<FitOption> options_of_all() {
+  return {
+      {.field = "model",
+       .key = "model",
+       .option = "model",
+       .member = [](FitRecord& record) -> std::string& { return record.model; },
+       .help = "weber_penn, or an L-system file NAME.lsys"},
+      {.field = "objective",
+       .key = "objective",
+       .option = "objective",
+       .member = [](FitRecord& record) -> std::string& { return record.objective; },
+       .expected = "a weighted sum of measures",
+       .check = check_objective,
+       .help = help_of_objectives(),
+       .experiment_list = "objectives"},
+      {.field = "optimizer",
+       .key = "optimizer",
+       .option = "optimizer",
+       .member = [](FitRecord& record) -> std::string& { return record.optimizer; },
+       .expected = "the name of an optimiser",
+       .check = check_optimizer,
+       .help = help_of_optimizers(),
+       .experiment_list = "optimizers"},
+      {.field = "seed",
+       .key = "seed",
+       .option = "seed",
+       .member = [](FitRecord& record) -> Seed& { return record.seed; },
+       .help = "of the search, and of the first tree",
+       .experiment_list = "seeds"},
+      {.field = "fit_seeds",
+       .key = "fit_seeds",
+       .option = "fit-seeds",
+       .member = [](FitRecord& record) -> int& { return record.fit_seeds; },
+       .lower = 1,
+       .upper = 1000,
+       .help = "trees grown per candidate, averaged"},
+      {.field = "kind",
+       .key = "kind",
+       .option = "kind",
+       .member = [](FitRecord& record) -> KindChoice& { return record.kind; },
+       .help = "of tree: auto (read off the picture), any, leafy, leafless (never any leaves), palm",
+       .before = name_of(KindChoice::any)},
+      {.field = "train_to_target",
+       .key = "train_to_target",
+       .option = "train-to-target",
+       .member = [](FitRecord& record) -> bool& { return record.train_to_target; },
+       .help = "keep the tree inside of the picture's outline: stems are shortened, bent, or cut (not for "
+               "L-systems)",
+       .before = false,
+       .experiment_list = "trained"},
+      {.field = "height_m",
+       .key = "height_m",
+       .option = "height",
+       .member = [](FitRecord& record) -> std::optional<double>& { return record.height_m; },
+       .unit = "m",
+       .lower = 0.01,
+       .upper = 200,
+       .help = "height of the tree, m (default: a nominal 10)",
+       .before = std::monostate{}},
+      {.field = "views",
+       .key = "views",
+       .option = "views",
+       .member = [](FitRecord& record) -> std::vector<ViewRecord>& { return record.views; },
+       .check = check_views,
+       .help = "more pictures: FILE:AZIMUTH,ELEVATION[,FIELD_OF_VIEW], in degrees; 0,0 is the front view",
+       .experiment_list = "targets"},
+      {.field = "target.size_px",
+       .key = "target.size_px",
+       .option = "size",
+       .member = [](FitRecord& record) -> int& { return record.target.size_px; },
+       .unit = "px",
+       .lower = 16,
+       .upper = 4096,
+       .help = "side of the masks, px"},
+      {.field = "target.method",
+       .key = "target.separation",
+       .option = "separation",
+       .member = [](FitRecord& record) -> SeparationMethod& { return record.target.method; },
+       .help = "auto, alpha, luminance or background"},
+      {.field = "target.side",
+       .key = "target.tree_side",
+       .option = "tree-side",
+       .member = [](FitRecord& record) -> TreeSide& { return record.target.side; },
+       .help = "auto, light or dark"},
+      {.field = "target.speck_px",
+       .key = "target.speck_px",
+       .member = [](FitRecord& record) -> int& { return record.target.speck_px; },
+       .unit = "px",
+       .lower = -1,
+       .upper = 1e6,
+       .help = "loose pieces under this many pixels of the picture are dropped; -1: by its size"},
+      {.field = "target.fill_pinholes",
+       .key = "target.fill_pinholes",
+       .member = [](FitRecord& record) -> bool& { return record.target.fill_pinholes; },
+       .help = "holes under the size of specks are filled"},
+      {.field = "target.one_tree",
+       .key = "target.one_tree",
+       .option = "all-trees",
+       .member = [](FitRecord& record) -> bool& { return record.target.one_tree; },
+       .help = "fit several trees of a picture as one (default: the largest alone)",
+       .note = "of several, the largest; else all as one",
+       .before = false,
+       .inverted = true},
+      {.field = "target_hash",
+       .key = "target.hash",
+       .member = [](FitRecord& record) -> std::string& { return record.target_hash; },
+       .help = "of the masks that were fitted: a run goes on with these alone",
+       .note = "of the masks that were fitted"},
+      {.field = "budget.evaluations",
+       .key = "budget.evaluations",
+       .option = "evaluations",
+       .member = [](FitRecord& record) -> long& { return record.budget.evaluations; },
+       .lower = 0,
+       .upper = kManyEvaluations,
+       .zero_is_none = true,
+       .help = "stop after this many (alone: no limit of time)",
+       .resumable = true},
+      {.field = "budget.seconds",
+       .key = "budget.seconds",
+       .option = "seconds",
+       .member = [](FitRecord& record) -> double& { return record.budget.seconds; },
+       .unit = "s",
+       .lower = 0,
+       .upper = kManySeconds,
+       .zero_is_none = true,
+       .help = "time to search",
+       .resumable = true},
+      {.field = "budget.target_fitness",
+       .key = "budget.target_fitness",
+       .option = "target-fitness",
+       .member = [](FitRecord& record) -> double& { return record.budget.target_fitness; },
+       .lower = 0,
+       .upper = 1,
+       .zero_is_none = true,
+       .help = "stop once the best is this good, 0..1",
+       .resumable = true},
+      {.field = "budget.branch_rounds",
+       .key = "budget.branch_rounds",
+       .option = "branch-rounds",
+       .member = [](FitRecord& record) -> long& { return record.budget.branch_rounds; },
+       .lower = 0,
+       .upper = kManyRounds,
+       .word = NumberWord{"time", kWhileTimeLasts},
+       .help = "rounds of branch by branch refinement after the search (default: as time allows, 24 without "
+               "a limit of time; 0: none)",
+       .note = "after the search; -1: as many as time allows",
+       .before = std::int64_t{0},
+       .says_default = true},
+      {.field = "budget.finish_from",
+       .key = "budget.finish_from",
+       .member = [](FitRecord& record) -> long& { return record.budget.finish_from; },
+       .lower = 0,
+       .upper = kManyRounds,
+       .word = NumberWord{"last_share", kLastShare},
+       .help = "round at which the finish begins",
+       .note = "round; -1: for the last 40 %",
+       .before = std::int64_t{kLastShare}},
+      {.field = "growth.max_stems",
+       .key = "budget.max_stems",
+       .option = "max-stems",
+       .member = [](FitRecord& record) -> double& { return record.growth.max_stems; },
+       .lower = 1,
+       .upper = 1e7,
+       .help = "stems a candidate may have; for an L-system at least 3 times those of its default plant"},
+      {.field = "growth.max_leaves",
+       .key = "budget.max_leaves",
+       .option = "max-leaves",
+       .member = [](FitRecord& record) -> double& { return record.growth.max_leaves; },
+       .lower = 1,
+       .upper = 1e7,
+       .help = "leaves a candidate may have; for an L-system likewise"},
+      {.field = "stages",
+       .key = "search.stages",
+       .option = "stages",
+       .member = [](FitRecord& record) -> FitStages& { return record.stages; },
+       .expected = "starts, or names of search, tracing, branches and finish",
+       .help = "what to do after the starts are scored: names of search, tracing, branches and finish; "
+               "starts that are not searched from are taken as they are, with their overrides",
+       .before = to_string(FitStages{})},
+      {.field = "start",
+       .key = "search.start",
+       .option = "start",
+       .member = [](FitRecord& record) -> std::string& { return record.start; },
+       .help = "auto (all presets), defaults, or presets: NAME,NAME",
+       .experiment_list = "starts"},
+      {.field = "space",
+       .key = "search.space",
+       .option = "space",
+       .member = [](FitRecord& record) -> std::string& { return record.space; },
+       .expected = "species:K",
+       .check = check_space,
+       .help = "species:K: search K coordinates of the species space first, then the parameters",
+       .note = "searched first",
+       .is_written = has_space,
+       .before = std::string(),
+       .experiment_list = "spaces"},
+      {.field = "space_evaluations",
+       .key = "search.space_evaluations",
+       .option = "space-evaluations",
+       .member = [](FitRecord& record) -> long& { return record.space_evaluations; },
+       .lower = 1,
+       .upper = kManyEvaluations,
+       .help = "evaluations in the species space, at most",
+       .is_written = has_space,
+       .before = std::int64_t{FitRecord{}.space_evaluations}},
+      {.field = "search.free",
+       .key = "search.free",
+       .option = "free",
+       .member = [](FitRecord& record) -> std::vector<std::string>& { return record.search.free; },
+       .help = "parameters to search: a,b[1],curve*,default",
+       .note = "none: the default set of the model",
+       .experiment_list = "spaces"},
+      {.field = "search.fixed",
+       .key = "search.fixed",
+       .option = "fix",
+       .member = [](FitRecord& record) -> std::map<std::string, double>& { return record.search.fixed; },
+       .assigned = parameter_value,
+       .help = "hold a parameter: name=value",
+       .experiment_list = "spaces"},
+      {.field = "optimizer_settings",
+       .key = "optimizer_settings",
+       .option = "set-optimizer",
+       .member = [](FitRecord& record) -> std::map<std::string, double>& {
+         return record.optimizer_settings;
+       },
+       .check = check_settings,
+       .assigned = setting_value,
+       .help = "a setting of the method: name=value",
+       .experiment_list = "optimizers"},
+  };
+}
+
+}  // namespace
+
+const std::vector<FitOption>& fit_options() {
+  static const std::vector<FitOption> options = options_of_all();
+  return options;
+}
+
+const FitOption* find_option(std::string_view field) {
+  for (const FitOption& option : fit_options())
+    if (option.field == field) return &option;
+  return nullptr;
+}
+
+std::string experiment_key(const FitOption& option) {
+  if (option.option.empty() || !option.experiment_list.empty()) return "";
+  std::string key(option.option);
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
+}  // namespace espalier

@@ -1,0 +1,34 @@
+// The tables of the docs are what the program prints: every block between marks, in every page.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <espalier/image/measures/metric_table.h>
+
+#include "support/run_espalier.h"
+
+namespace espalier {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(ReferenceCommand, TheTablesOfTheDocsAreWhatItPrints) {
+  const ProgramRun run =
+      run_shell("'" ESPALIER_SOURCE_DIR "/docs/update_tables.py' --check '" ESPALIER_PROGRAM "'");
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+}
+
+TEST(ReferenceCommand, HasALineForEachMeasure) {
+  const ProgramRun run = run_espalier("reference measures");
+  for (const Metric& metric : kMetrics)
+    EXPECT_THAT(run.out, HasSubstr(std::string("| `") + metric.name + "` |"));
+  EXPECT_THAT(read_text_file(ESPALIER_SOURCE_DIR "/docs/measures.md"), HasSubstr(run.out));
+}
+
+TEST(ReferenceCommand, RefusesAnUnknownTopic) {
+  const ProgramRun run = run_espalier("reference trees");
+  expect_one_clear_error(run);
+  EXPECT_THAT(run.err, HasSubstr("measures"));
+}
+
+}  // namespace
+}  // namespace espalier
