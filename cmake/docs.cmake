@@ -1,5 +1,5 @@
-# The pages of all headers: ninja docs leaves them in docs/html of the build folder. A warning fails the target;
-# that something has no comment is none.
+# The pages of all headers: ninja docs leaves them in the build folder. A warning fails the target; that something
+# has no comment is none.
 find_package(Doxygen QUIET)
 if(NOT DOXYGEN_FOUND)
   return()
