@@ -88,15 +88,27 @@ TEST(OwnOptimizer, ARunOfItIsGoneOnWithAsIfUnbroken) {
   options.optimizer = &wanderer;
   fit(pole_record(folder, 60), folder / "whole", options);
   fit(pole_record(folder, 20), folder / "broken", options);
-  FitRecord record = read_record(folder / "broken/run.toml").record;
-  EXPECT_EQ(record.optimizer, "wanderer");
-  record.budget.evaluations = 60;
   options.resume = true;
-  fit(record, folder / "broken", options);
-  EXPECT_EQ(read_text_file(folder / "broken/best.toml"), read_text_file(folder / "whole/best.toml"));
+  fit(pole_record(folder, 60), folder / "broken", options);
+  for (const char* file : {"run.toml", "best.toml"})
+    EXPECT_EQ(read_text_file(folder / "broken" / file), read_text_file(folder / "whole" / file)) << file;
+  EXPECT_THAT(read_text_file(folder / "whole/run.toml"), HasSubstr("optimizer = \"wanderer\"\n"));
+}
 
-  options.optimizer = nullptr;
-  EXPECT_THAT(error_of(record, folder / "broken", options), HasSubstr("wanderer"));
+TEST(OwnOptimizer, WhoDoesNotHaveItIsToldItsName) {
+  const fs::path folder = fresh_folder("wanderer");
+  const PoleModel pole;
+  const Wanderer wanderer;
+  FitOptions options;
+  options.model = &pole;
+  options.optimizer = &wanderer;
+  fit(pole_record(folder, 20), folder / "run", options);
+  try {
+    read_record(folder / "run/run.toml");
+    FAIL() << "expected an InputError";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("wanderer"));
+  }
 }
 
 TEST(OwnOptimizer, ItsSettingsAreCheckedBeforeAnythingIsWritten) {
