@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include <espalier/fitting/task/fit_options.h>
-#include <espalier/fitting/task/option_values.h>
+#include <espalier/fitting/record/fit_options.h>
+#include <espalier/fitting/record/option_values.h>
 
 namespace espalier {
 

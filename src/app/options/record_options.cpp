@@ -2,8 +2,8 @@
 
 #include <espalier/app/options/option_names.h>
 #include <espalier/app/options/record_options.h>
-#include <espalier/fitting/task/fit_options.h>
-#include <espalier/fitting/task/option_values.h>
+#include <espalier/fitting/record/fit_options.h>
+#include <espalier/fitting/record/option_values.h>
 
 namespace espalier {
 

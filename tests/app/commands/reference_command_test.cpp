@@ -2,8 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <espalier/fitting/task/fit_options.h>
+#include <espalier/fitting/record/fit_options.h>
 #include <espalier/image/measures/metric_table.h>
+#include <espalier/lsystem/strings/turtle_commands.h>
 
 #include "support/run_espalier.h"
 
@@ -23,6 +24,15 @@ TEST(ReferenceCommand, HasALineForEachMeasure) {
   for (const Metric& metric : kMetrics)
     EXPECT_THAT(run.out, HasSubstr(std::string("| `") + metric.name + "` |"));
   EXPECT_THAT(read_text_file(ESPALIER_SOURCE_DIR "/docs/measures.md"), HasSubstr(run.out));
+}
+
+TEST(ReferenceCommand, HasALineForEachCommandOfTheTurtle) {
+  const ProgramRun run = run_espalier("reference lsystem-commands"), help = run_espalier("lsystem --help");
+  for (const lsystem::CommandInfo& info : lsystem::kCommands) {
+    EXPECT_THAT(run.out, HasSubstr(std::string(info.help)));
+    EXPECT_THAT(help.out, HasSubstr(std::string(info.help)));
+  }
+  EXPECT_THAT(read_text_file(ESPALIER_SOURCE_DIR "/docs/lsystem.md"), HasSubstr(run.out));
 }
 
 TEST(ReferenceCommand, HasALineForEachOptionOfAFit) {

@@ -8,8 +8,8 @@
 #include <set>
 
 #include <espalier/core/field_error.h>
-#include <espalier/fitting/task/fit_options.h>
-#include <espalier/fitting/task/option_values.h>
+#include <espalier/fitting/record/fit_options.h>
+#include <espalier/fitting/record/option_values.h>
 
 #include "support/option_samples.h"
 #include "support/run_espalier.h"

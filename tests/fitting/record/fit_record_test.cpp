@@ -8,7 +8,7 @@
 #include <functional>
 
 #include <espalier/core/error.h>
-#include <espalier/fitting/task/fit_record.h>
+#include <espalier/fitting/record/fit_record.h>
 
 #include "support/run_espalier.h"
 
