@@ -1,6 +1,4 @@
 // The optimisers by name.
-#include <array>
-
 #include <espalier/core/error.h>
 #include <espalier/core/parameter_table.h>
 #include <espalier/fitting/optimizers/methods.h>
@@ -11,8 +9,7 @@ namespace {
 
 std::vector<std::unique_ptr<Optimizer>> make_all() {
   std::vector<std::unique_ptr<Optimizer>> all;
-  for (auto* make : std::array{make_random_search, make_hewitt_ga, make_ga, make_cma_es})
-    all.push_back(make());
+  for (auto* make : kOwnMethods) all.push_back(make());
   for (auto& optimizer : make_nlopt_optimizers()) all.push_back(std::move(optimizer));
   return all;
 }

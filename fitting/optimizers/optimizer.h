@@ -98,7 +98,7 @@ class Optimizer {
                                   Observer& observer) const = 0;
 };
 
-/// All optimisers, in the order of the help: random_search, hewitt_ga, ga, cma_es, then NLopt's names.
+/// All optimisers, in the order of the help: those of methods.h, then NLopt's.
 const std::vector<std::unique_ptr<Optimizer>>& all_optimizers();
 
 /// Throws InputError naming the closest optimiser where there is none of this name.

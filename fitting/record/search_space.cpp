@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <espalier/core/assignment.h>
 #include <espalier/core/field_error.h>
 #include <espalier/fitting/record/search_space.h>
 

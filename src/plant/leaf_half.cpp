@@ -9,7 +9,7 @@ namespace espalier {
 
 namespace {
 
-constexpr int kShapes = 11;
+constexpr int kShapes = static_cast<int>(kLeafShapes.size()) + 1;  ///< with 0
 
 /// Moves a chain of edges to the front, the lowest one first; its length.
 std::size_t chain_edges(std::vector<LeafHalf::Edge>& edges) {

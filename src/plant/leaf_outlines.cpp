@@ -137,20 +137,33 @@ const LeafOutline& one_of(std::span<const LeafOutline> outlines, int shape, cons
 
 constexpr int kEllipticShape = 8;
 
+// In the order of their names.
+const Half* const kHalves[] = {&kOvate,    &kLinear,     &kCordate,  &kMaple,     &kPalmate,
+                               &kSpikyOak, &kRoundedOak, &kElliptic, &kRectangle, &kTriangle};
+const Cup* const kCups[] = {&kCherry, &kOrange, &kMagnolia};
+static_assert(std::size(kHalves) == kLeafShapes.size() && std::size(kCups) == kBlossomShapes.size());
+
+std::vector<LeafOutline> all_leaves() {
+  std::vector<LeafOutline> outlines;
+  for (const Half* half : kHalves) outlines.push_back(leaf_from_half(*half));
+  return outlines;
+}
+
+std::vector<LeafOutline> all_blossoms() {
+  std::vector<LeafOutline> outlines;
+  for (const Cup* cup : kCups) outlines.push_back(blossom_from_cup(*cup));
+  return outlines;
+}
+
 }  // namespace
 
 const LeafOutline& leaf_outline(int shape) {
-  static const std::array<LeafOutline, 10> outlines{leaf_from_half(kOvate),      leaf_from_half(kLinear),
-                                                    leaf_from_half(kCordate),    leaf_from_half(kMaple),
-                                                    leaf_from_half(kPalmate),    leaf_from_half(kSpikyOak),
-                                                    leaf_from_half(kRoundedOak), leaf_from_half(kElliptic),
-                                                    leaf_from_half(kRectangle),  leaf_from_half(kTriangle)};
+  static const std::vector<LeafOutline> outlines = all_leaves();
   return one_of(outlines, shape == 0 ? kEllipticShape : shape, "leaf_shape");
 }
 
 const LeafOutline& blossom_outline(int shape) {
-  static const std::array<LeafOutline, 3> outlines{blossom_from_cup(kCherry), blossom_from_cup(kOrange),
-                                                   blossom_from_cup(kMagnolia)};
+  static const std::vector<LeafOutline> outlines = all_blossoms();
   return one_of(outlines, shape, "blossom_shape");
 }
 

@@ -16,6 +16,7 @@
 #include <espalier/lsystem/derivation/derivation.h>
 #include <espalier/lsystem/drawing/plant_builder.h>
 #include <espalier/lsystem/files/bundled.h>
+#include <espalier/lsystem/strings/turtle_commands.h>
 #include <espalier/render/shading/shaded.h>
 
 namespace espalier {
@@ -98,10 +99,18 @@ void run_lsystem(const LsystemOptions& options) {
   draw(plant, camera_of(options.view, plant), options, options.output);
 }
 
+std::string help_of_commands() {
+  std::string help = "Symbols that the turtle knows:\n";
+  for (const lsystem::CommandInfo& info : lsystem::kCommands)
+    help += fmt::format("  {:<2} {:<1}  {}\n", info.symbol, info.other_symbol, info.help);
+  return help;
+}
+
 }  // namespace
 
 void add_lsystem_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("lsystem", "Derive an L-system: print its string or draw it");
+  command->footer(help_of_commands());
   const auto options = std::make_shared<LsystemOptions>();
   command->add_option("file", options->file, "an .lsys file, or the name of a bundled one")->required();
   command->add_option("--steps", options->steps, "derivation steps; else those the file says");

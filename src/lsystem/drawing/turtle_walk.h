@@ -1,6 +1,5 @@
 // Reading a string with the turtle. A visitor is told of what is drawn; the walk itself only moves, turns
-// and keeps the turtles of open branches. Commands are those of [ABOP §1.3, §1.5] with the signs of
-// [Topiary Fig. 1]; docs/lsystem.md lists them.
+// and keeps the turtles of open branches. strings/turtle_commands.h has the table of commands.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -160,7 +159,9 @@ class TurtleWalk {
         return set_color(step, 1);
       case Command::previous_color:
         return set_color(step, -1);
+      case Command::cut:  // the derivation has done it
       case Command::none:
+      case Command::count:
         return;
     }
   }
@@ -169,7 +170,7 @@ class TurtleWalk {
   Visitor& visitor_;
   Turtle turtle_;
   std::vector<Turtle> stack_;
-  std::array<Rotation, 32> rotations_;  ///< by command
+  std::array<Rotation, kCommandCount> rotations_;  ///< by command
   Rotation around_;
 };
 

@@ -1,11 +1,13 @@
 // From a Lua expression to a Program: recursive descent along Lua's precedences (Lua 5.1, §2.5.6). Whatever
 // is not arithmetic on numbers and truth values is given up, and then Lua evaluates the expression.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <map>
 
 #include <espalier/core/error.h>
+#include <espalier/lsystem/expressions/operations.h>
 #include <espalier/lsystem/expressions/program.h>
 
 namespace espalier::lsystem {
@@ -31,11 +33,6 @@ using Scope = std::map<std::string, Value, std::less<>>;
 
 constexpr std::size_t kMaxTemporaries = 250;
 constexpr int kMaxDepth = 60;
-
-const std::map<std::string, Op, std::less<>> kUnary{
-    {"abs", Op::absolute}, {"floor", Op::floor}, {"ceil", Op::ceil}, {"sqrt", Op::sqrt}, {"sin", Op::sin},
-    {"cos", Op::cos},      {"tan", Op::tan},     {"exp", Op::exp},   {"log", Op::log}};
-const std::map<std::string, Op, std::less<>> kFolded{{"min", Op::minimum}, {"max", Op::maximum}};
 
 class Compiler {
  public:
@@ -310,17 +307,28 @@ class Compiler {
       program_.draws = true;
       return {Type::number, emit(Op::random, literal(random_sites_++))};
     }
-    if (const auto one = kUnary.find(name); one != kUnary.end()) {
-      if (values.size() == 1) return {Type::number, emit(one->second, number(values[0]))};
-      if (name == "log" && values.size() == 2) throw NotArithmetic{};  // to a base
-      throw_input_error("{}: got {} arguments, expected 1", name, values.size());
-    }
-    const auto folded = kFolded.find(name);
-    if (folded == kFolded.end()) throw NotArithmetic{};
-    if (values.empty()) throw_input_error("{}: got no arguments, expected some", name);
+    if (const Operation* function = find_operation(name, Written::as_function))
+      return {Type::number, apply(*function, values)};
+    const Operation* folded = find_operation(name, Written::as_fold);
+    if (!folded) throw NotArithmetic{};
+    return {Type::number, fold(*folded, values)};
+  }
+
+  Operand apply(const Operation& function, const std::vector<Value>& values) {
+    if (function.op == Op::log && values.size() == 2) throw NotArithmetic{};  // to a base
+    if (values.size() != static_cast<std::size_t>(function.arity))
+      throw_input_error("{}: got {} arguments, expected {}", function.name, values.size(), function.arity);
+    std::array<Operand, 3> operands;
+    for (std::size_t i = 0; i < operands.size(); ++i)
+      operands[i] = i < values.size() ? number(values[i]) : literal(0);
+    return emit(function.op, operands[0], operands[1], operands[2]);
+  }
+
+  Operand fold(const Operation& folded, const std::vector<Value>& values) {
+    if (values.empty()) throw_input_error("{}: got no arguments, expected some", folded.name);
     Operand result = number(values[0]);
-    for (std::size_t i = 1; i < values.size(); ++i) result = emit(folded->second, result, number(values[i]));
-    return {Type::number, result};
+    for (std::size_t i = 1; i < values.size(); ++i) result = emit(folded.op, result, number(values[i]));
+    return result;
   }
 
   const Names& names_;

@@ -53,7 +53,8 @@ enum class Op : std::uint8_t {
   distance,
   field,
   light,
-  skylight
+  skylight,
+  count  ///< of the names above; operations.h has a row for each
 };
 
 struct Operand {

@@ -1,4 +1,5 @@
 #include <espalier/lsystem/notation/settings.h>
+#include <espalier/plant/leaf_outlines.h>
 
 namespace espalier::lsystem {
 
@@ -17,8 +18,9 @@ constexpr std::array<SettingInfo, 13> kSettings{{
     {"unit", 1, 1e-6, kLarge, [](Settings& s, const Values& v) { s.unit_m = v[0]; }},
     {"tropism", 3, -kLarge, kLarge, [](Settings& s, const Values& v) { s.tropism = v; }},
     {"susceptibility", 1, -100, 100, [](Settings& s, const Values& v) { s.susceptibility = v[0]; }},
-    {"leaf_shape", 1, 0, 10, [](Settings& s, const Values& v) { s.leaf_shape = static_cast<int>(v[0]); }},
-    {"blossom_shape", 1, 1, 3,
+    {"leaf_shape", 1, 0, kLeafShapes.size(),
+     [](Settings& s, const Values& v) { s.leaf_shape = static_cast<int>(v[0]); }},
+    {"blossom_shape", 1, 1, kBlossomShapes.size(),
      [](Settings& s, const Values& v) { s.blossom_shape = static_cast<int>(v[0]); }},
     {"leaf_length", 1, 0, kLarge, [](Settings& s, const Values& v) { s.leaf_length = v[0]; }},
     {"leaf_width", 1, 0, kLarge, [](Settings& s, const Values& v) { s.leaf_width = v[0]; }},

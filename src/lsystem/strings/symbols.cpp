@@ -2,6 +2,7 @@
 
 #include <espalier/core/error.h>
 #include <espalier/lsystem/strings/symbols.h>
+#include <espalier/lsystem/strings/turtle_commands.h>
 
 namespace espalier::lsystem {
 
@@ -29,11 +30,11 @@ std::size_t symbol_length(std::string_view text, const std::vector<std::string>&
   for (const std::string& name : declared)
     if (name.size() > longest && text.starts_with(name)) longest = name.size();
   if (longest > 0 || text.empty()) return longest;
-  if (is_query(text.substr(0, 2)) || text.starts_with("@o")) return 2;
-  constexpr std::string_view kSigns = "+-&^/\\|[]$!_;,'{}.%~@#?";
-  const bool known =
-      std::isalpha(static_cast<unsigned char>(text[0])) || kSigns.find(text[0]) != std::string_view::npos;
-  return known ? 1 : 0;
+  if (std::isalpha(static_cast<unsigned char>(text[0]))) return 1;
+  for (const CommandInfo& info : kCommands)
+    for (const std::string_view symbol : {info.symbol, info.other_symbol})
+      if (symbol.size() > longest && text.starts_with(symbol)) longest = symbol.size();
+  return longest;
 }
 
 }  // namespace espalier::lsystem

@@ -1,60 +1,13 @@
-// The symbols that the turtle knows, and how many parameters they take.
-#include <array>
-
 #include <espalier/core/error.h>
 #include <espalier/lsystem/strings/turtle_commands.h>
 
 namespace espalier::lsystem {
 
-namespace {
-
-struct CommandInfo {
-  std::string_view name;
-  Command command;
-  int least, most;
-};
-
-constexpr std::array<CommandInfo, 31> kCommands{{
-    {"F", Command::draw, 0, 5},
-    {"G", Command::draw_unrecorded, 0, 5},
-    {"f", Command::move, 0, 1},
-    {"+", Command::turn_left, 0, 1},
-    {"-", Command::turn_right, 0, 1},
-    {"&", Command::pitch_down, 0, 1},
-    {"^", Command::pitch_up, 0, 1},
-    {"/", Command::roll_right, 0, 1},
-    {"\\", Command::roll_left, 0, 1},
-    {"|", Command::turn_around, 0, 0},
-    {"[", Command::open, 0, 0},
-    {"]", Command::close, 0, 0},
-    {"$", Command::level, 0, 0},
-    {"!", Command::narrower, 0, 1},
-    {"_", Command::wider, 0, 1},
-    {";", Command::next_color, 0, 3},
-    {",", Command::previous_color, 0, 3},
-    {"'", Command::next_color, 0, 3},
-    {"@o", Command::sphere, 0, 1},
-    {"@", Command::look_at, 3, 3},
-    {"{", Command::polygon_open, 0, 0},
-    {"}", Command::polygon_close, 0, 0},
-    {".", Command::vertex, 0, 0},
-    {"~", Command::surface, 1, 3},
-    {"?P", Command::query_position, 2, 3},
-    {"?H", Command::query_heading, 2, 3},
-    {"?U", Command::query_up, 2, 3},
-    {"?L", Command::query_left, 2, 3},
-    {"%", Command::none, 0, 0},
-    {"?", Command::open_edge, 0, 1},
-    {"#", Command::close_edge, 0, 1},
-}};
-
-const CommandInfo* find_command(std::string_view name) {
+const CommandInfo* find_command(std::string_view symbol) {
   for (const CommandInfo& info : kCommands)
-    if (info.name == name) return &info;
+    if (info.symbol == symbol || (!info.other_symbol.empty() && info.other_symbol == symbol)) return &info;
   return nullptr;
 }
-
-}  // namespace
 
 void check_arity(std::string_view name, std::size_t arity) {
   const CommandInfo* info = find_command(name);

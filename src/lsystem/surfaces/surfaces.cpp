@@ -15,9 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, kFirstOwnSurface> kNames{
-    "leaf",        "blossom",  "ovate",     "linear",   "cordate", "maple",  "palmate", "spiky_oak",
-    "rounded_oak", "elliptic", "rectangle", "triangle", "cherry",  "orange", "magnolia"};
+constexpr std::array<std::string_view, kFirstOwnSurface> kNames = [] {
+  std::array<std::string_view, kFirstOwnSurface> names;
+  names[kLeafSurface] = "leaf";
+  names[kBlossomSurface] = "blossom";
+  std::copy(kLeafShapes.begin(), kLeafShapes.end(), names.begin() + kFirstLeafOutline);
+  std::copy(kBlossomShapes.begin(), kBlossomShapes.end(), names.begin() + kFirstBlossomOutline);
+  return names;
+}();
 constexpr std::array<std::string_view, 5> kMeshExtensions{".obj", ".ply", ".stl", ".off", ".glb"};
 constexpr std::uintmax_t kMostBytes = 16u << 20;
 

@@ -6,6 +6,7 @@
 
 #include <espalier/lsystem/strings/source.h>
 #include <espalier/lsystem/surfaces/appearance.h>
+#include <espalier/plant/leaf_outlines.h>
 
 namespace espalier::lsystem {
 
@@ -13,9 +14,9 @@ namespace espalier::lsystem {
 enum Surface : int {
   kLeafSurface,
   kBlossomSurface,
-  kFirstLeafOutline,                              ///< "ovate" … "triangle": leaf shapes 1 to 10
-  kFirstBlossomOutline = kFirstLeafOutline + 10,  ///< "cherry", "orange", "magnolia": blossom shapes 1 to 3
-  kFirstOwnSurface = kFirstBlossomOutline + 3,
+  kFirstLeafOutline,  ///< leaf shape 1
+  kFirstBlossomOutline = kFirstLeafOutline + static_cast<int>(kLeafShapes.size()),
+  kFirstOwnSurface = kFirstBlossomOutline + static_cast<int>(kBlossomShapes.size()),
 };
 
 /// The number that stands for a surface in a string. Throws InputError at `position` for an unknown name.

@@ -3,6 +3,7 @@
 // those of a tree to trace: where overrides bend a branch, curve_v is what other seeds bend it by.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -11,6 +12,7 @@
 #include <variant>
 
 #include <espalier/core/error.h>
+#include <espalier/plant/leaf_outlines.h>
 #include <espalier/weber_penn/table/parameters.h>
 #include <espalier/weber_penn/table/taper_codec.h>
 
@@ -74,10 +76,11 @@ constexpr SignMeaning kNumber = SignMeaning::number, kFlag = SignMeaning::flag;
 constexpr const char* kCrownShapes[] = {"conical",         "spherical",           "hemispherical",
                                         "cylindrical",     "tapered_cylindrical", "flame",
                                         "inverse_conical", "tend_flame",          "envelope"};
-constexpr const char* kLeafShapes[] = {"default",  "ovate",     "linear",    "cordate",
-                                       "maple",    "palmate",   "spiky_oak", "rounded_oak",
-                                       "elliptic", "rectangle", "triangle"};
-constexpr const char* kBlossomShapes[] = {"cherry", "orange", "magnolia"};
+constexpr std::array kLeafChoices = [] {
+  std::array<const char*, kLeafShapes.size() + 1> names{"default"};
+  std::copy(kLeafShapes.begin(), kLeafShapes.end(), names.begin() + 1);
+  return names;
+}();
 constexpr const char* kSwitch[] = {"off", "on"};
 
 // clang-format off
@@ -142,15 +145,15 @@ const Definition kDefinitions[] = {
    {.role = {Role::trunk_form, Role::branch_radius}, .plain = {1, 1}}},
   {&P::leaf_blos_num, "leaf_blos_num", "1", {-2000, 10000}, {0, 120}, kWhole, kFlag, "*", "Leaves", "leaves or blossom on each stem of the last level; negative: in a fan at its tip",
    {.sides = FlagSides::one_measure, .relaxable = true, .role = {Role::leaf_count}}},
-  {&P::leaf_shape, "leaf_shape", "1", {0, 10}, {0, 10}, kChoice, kNumber, "", "LeafShape", "outline of a leaf",
-   {.choices = kLeafShapes, .needs = {{"leaf_blos_num"}}}},
+  {&P::leaf_shape, "leaf_shape", "1", {0, kLeafShapes.size()}, {0, kLeafShapes.size()}, kChoice, kNumber, "", "LeafShape", "outline of a leaf",
+   {.choices = kLeafChoices, .needs = {{"leaf_blos_num"}}}},
   {&P::leaf_scale, "leaf_scale", "m", {0, 50}, {0.03, 0.5}, kLog, kNumber, "*", "LeafScale", "length of a leaf",
    {.needs = {{"leaf_blos_num"}}, .role = {Role::leaf_length}}},
   {&P::leaf_scale_x, "leaf_scale_x", "1", {0, 50}, {0.05, 1.5}, kLog, kNumber, "*", "LeafScaleX", "width of a leaf relative to its outline's",
    {.needs = {{"leaf_blos_num"}}, .role = {Role::leaf_width}}},
   {&P::leaf_bend, "leaf_bend", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "LeafBend", "how far leaves turn to face outwards",
    {.needs = {{"leaf_blos_num"}}}},
-  {&P::blossom_shape, "blossom_shape", "1", {1, 3}, {1, 3}, kChoice, kNumber, "", "", "form of a blossom",
+  {&P::blossom_shape, "blossom_shape", "1", {1, kBlossomShapes.size()}, {1, kBlossomShapes.size()}, kChoice, kNumber, "", "", "form of a blossom",
    {.choices = kBlossomShapes, .first_choice = 1, .needs = {{"blossom_rate"}}}},
   {&P::blossom_scale, "blossom_scale", "m", {0, 50}, {0, 0.3}, kReal, kNumber, "", "", "size of a blossom",
    {.needs = {{"blossom_rate"}}}},

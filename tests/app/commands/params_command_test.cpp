@@ -16,7 +16,7 @@ TEST(ParamsCommand, TheDocumentationIsWhatItPrints) {
   const ProgramRun run = run_espalier("params --format markdown");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(run.out, read_text_file(ESPALIER_SOURCE_DIR "/docs/parameters.md"))
-      << "make it anew: ./espalier params --format markdown > docs/parameters.md";
+      << "make it anew: docs/update_tables.py";
 }
 
 TEST(ParamsCommand, JsonHasARowForEachRowOfTheTable) {

@@ -125,6 +125,24 @@ TEST(BranchRounds, GoOnFromWhatIsWrittenWithTheSameBits) {
   EXPECT_TRUE(same(unbroken, resumed));
 }
 
+std::string with_metrics(const std::string& metrics) {
+  return R"({"rounds":1,"steps":1,"search_evaluations":1,"search_limit":1,"lanes":[{"values":[],"plant_seed":1,
+             "score":0.5,"overrides":""}],"history":[{"steps":1,"seconds":1,"score":0.5,"metrics":)" +
+         metrics + "}]}";
+}
+
+TEST(BranchRounds, MeasuresOfEarlierVersionsAreReadByTheirPlaces) {
+  const BranchRounds old =
+      branch_rounds_from_json(with_metrics("[0.1,0.2,0.3,0.4,0.5,0.6,0.7]"), "branches.json");
+  const MaskMetrics& metrics = old.history.front().metrics;
+  EXPECT_EQ(metrics["pixel_accuracy"], 0.1);
+  EXPECT_EQ(metrics["outline_iou"], 0.5);
+  EXPECT_EQ(metrics["truncated_distance"], 0.6);
+  EXPECT_EQ(metrics["gap_iou"], 0.7);
+  EXPECT_THROW(branch_rounds_from_json(with_metrics("[0.1]"), "branches.json"), InputError);
+  EXPECT_THROW(branch_rounds_from_json(with_metrics("0.1"), "branches.json"), InputError);
+}
+
 /// Two trees of trunks alone, so that rounds of other orders find nothing to refine; the second is worse.
 BranchRounds two_lanes(SmallTask& small) {
   small.set("levels", 1);

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <espalier/fitting/record/fit_options.h>
 #include <espalier/image/measures/metric_table.h>
+#include <espalier/lsystem/strings/turtle_commands.h>
 
 #include "support/run_espalier.h"
 
@@ -22,6 +24,22 @@ TEST(ReferenceCommand, HasALineForEachMeasure) {
   for (const Metric& metric : kMetrics)
     EXPECT_THAT(run.out, HasSubstr(std::string("| `") + metric.name + "` |"));
   EXPECT_THAT(read_text_file(ESPALIER_SOURCE_DIR "/docs/measures.md"), HasSubstr(run.out));
+}
+
+TEST(ReferenceCommand, HasALineForEachCommandOfTheTurtle) {
+  const ProgramRun run = run_espalier("reference lsystem-commands"), help = run_espalier("lsystem --help");
+  for (const lsystem::CommandInfo& info : lsystem::kCommands) {
+    EXPECT_THAT(run.out, HasSubstr(std::string(info.help)));
+    EXPECT_THAT(help.out, HasSubstr(std::string(info.help)));
+  }
+  EXPECT_THAT(read_text_file(ESPALIER_SOURCE_DIR "/docs/lsystem.md"), HasSubstr(run.out));
+}
+
+TEST(ReferenceCommand, HasALineForEachOptionOfAFit) {
+  const ProgramRun run = run_espalier("reference fit");
+  for (const FitOption& option : fit_options())
+    EXPECT_THAT(run.out, HasSubstr(fmt::format("`{}` |", option.key)));
+  EXPECT_THAT(read_text_file(ESPALIER_SOURCE_DIR "/docs/fit_options.md"), HasSubstr(run.out));
 }
 
 TEST(ReferenceCommand, RefusesAnUnknownTopic) {
