@@ -16,17 +16,29 @@ endif()
 
 # The presets of the sanitizers compile each room, and each test program, as one file (CMAKE_UNITY_BUILD): a third
 # of the time. Not part of that are sources with a local name that another file of the room has too, and those
-# that Highway compiles once for each instruction set.
+# that Highway compiles once for each instruction set. Where a sanitizer's build says 'redefinition', give one of the
+# two another name, or name its file here.
 set(ESPALIER_KEPT_APART
+  fitting/record/view_record.cpp
   fitting/starts/start_points.cpp
-  src/environment/closed_mesh.cpp src/environment/volume_tree.cpp
-  src/render/embree/blossom_triangles.cpp src/render/embree/leaf_polygons.cpp
+  src/app/options/record_options.cpp
+  src/environment/closed_mesh.cpp
+  src/environment/volume_tree.cpp
+  src/image/reading/clean.cpp
+  src/render/embree/blossom_triangles.cpp
+  src/render/embree/leaf_polygons.cpp
   tests/app/commands/space_command_test.cpp
   tests/environment/volume_tree_test.cpp
   tests/experiments/runner/csv_test.cpp
+  tests/fitting/optimizers/cma_distribution_test.cpp
+  tests/fitting/optimizers/ga_test.cpp
   tests/fitting/run/staged_fit_test.cpp
   tests/overrides/reshape_test.cpp
-  tests/weber_penn/branch_overrides_test.cpp tests/weber_penn/simd/stem_batch_test.cpp)
+  tests/weber_penn/branch_overrides_test.cpp
+  tests/weber_penn/scalar/helix_test.cpp
+  tests/weber_penn/scalar/radius_test.cpp
+  tests/weber_penn/scalar/split_test.cpp
+  tests/weber_penn/simd/stem_batch_test.cpp)
 
 # espalier_keep_apart(SOURCES...): marks those of them that are not compiled with their room.
 function(espalier_keep_apart)

@@ -1,4 +1,4 @@
-# The pages of all headers: ninja docs leaves them in docs/html of the build folder. A warning fails the target;
+# The pages of all headers: ninja docs leaves them as HTML in the build folder. A warning fails the target;
 # that something has no comment is none.
 find_package(Doxygen QUIET)
 if(NOT DOXYGEN_FOUND)

@@ -51,3 +51,10 @@ install(FILES ${experiments} DESTINATION ${data}/experiments)
 install(DIRECTORY experiments/report experiments/volumes DESTINATION ${data}/experiments
         PATTERN __pycache__ EXCLUDE)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# A build folder has its data in the same places, so that an Espalier installed elsewhere is never asked for it.
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/espalier)
+foreach(folder targets experiments src/lsystem)
+  get_filename_component(name ${folder} NAME)
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${PROJECT_BINARY_DIR}/share/espalier/${name} SYMBOLIC)
+endforeach()

@@ -28,7 +28,7 @@ int main(int count, char** arguments) {
     };
 
     const FitResult result = fit(record, arguments[2], options);
-    fmt::print("fitness {:.3f}, IoU {:.3f}, {} evaluations, from {}\n", result.fitness, result.metrics.iou,
+    fmt::print("fitness {:.3f}, IoU {:.3f}, {} evaluations, from {}\n", result.fitness, result.metrics["iou"],
                result.evaluations, result.best_start);
   } catch (const InputError& error) {
     return fmt::print(stderr, "{}\n", error.what()), 2;

@@ -12,7 +12,7 @@ int main(int count, char** arguments) {
     // A preset is a list of values for the rows of its model's parameter table.
     Preset preset = load_preset(arguments[1]);
     const Model& model = model_by_name(preset.model);
-    if (const auto levels = model.table().find("g_scale")) preset.values[*levels] = 12;  // metres
+    if (const auto row = model.table().find("g_scale")) preset.values[*row] = 12;  // metres high
 
     // A model is a pure function: the same values and seed grow the same plant, bit for bit.
     Plant plant;

@@ -63,7 +63,7 @@ int main(int count, char** arguments) {
     options.optimizer = &climber;
     const FitResult result = fit(record, arguments[2], options);
     fmt::print("fitness {:.3f}, {} evaluations, stopped by {}\n", result.fitness, result.evaluations,
-               result.stopped_by);
+               name_of(result.stopped_by));
   } catch (const InputError& error) {
     return fmt::print(stderr, "{}\n", error.what()), 2;
   }

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include <espalier/core/error.h>
-#include <espalier/fitting/task/fit_record.h>
+#include <espalier/fitting/record/fit_record.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>

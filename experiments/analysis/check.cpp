@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include <espalier/core/error.h>
-#include <espalier/core/toml_section.h>
+#include <espalier/core/toml/toml_section.h>
 #include <espalier/experiments/analysis/check.h>
 #include <espalier/experiments/runner/csv.h>
 #include <espalier/experiments/statistics/quantiles.h>

@@ -4,8 +4,8 @@
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
 #include <espalier/experiments/analysis/start_picture.h>
+#include <espalier/fitting/record/fit_record.h>
 #include <espalier/fitting/starts/start_points.h>
-#include <espalier/fitting/task/fit_record.h>
 #include <espalier/fitting/task/record_task.h>
 
 namespace espalier {

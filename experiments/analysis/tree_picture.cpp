@@ -1,6 +1,6 @@
 #include <espalier/core/error.h>
 #include <espalier/experiments/analysis/tree_picture.h>
-#include <espalier/fitting/task/fit_record.h>
+#include <espalier/fitting/record/fit_record.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 #include <espalier/overrides/change_graph.h>

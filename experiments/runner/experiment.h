@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <espalier/fitting/task/fit_record.h>
+#include <espalier/fitting/record/fit_record.h>
 
 namespace espalier {
 

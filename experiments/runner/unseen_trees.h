@@ -4,7 +4,7 @@
 #pragma once
 #include <string>
 
-#include <espalier/fitting/task/fit_record.h>
+#include <espalier/fitting/record/fit_record.h>
 #include <espalier/fitting/task/fit_task.h>
 
 namespace espalier {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <espalier/fitting/branches/solution.h>
-#include <espalier/fitting/task/fit_stages.h>
+#include <espalier/fitting/record/fit_stages.h>
 #include <espalier/fitting/task/fit_task.h>
 
 namespace espalier {

@@ -5,7 +5,7 @@
 #pragma once
 #include <vector>
 
-#include <espalier/fitting/task/search_space.h>
+#include <espalier/fitting/record/search_space.h>
 
 namespace espalier {
 

@@ -3,7 +3,7 @@
 // refinement fits the chance too; where both sizes have to be right, what is right is the tree.
 #pragma once
 #include <espalier/fitting/branches/branch_rounds.h>
-#include <espalier/fitting/task/fit_record.h>
+#include <espalier/fitting/record/fit_record.h>
 #include <espalier/fitting/task/fit_task.h>
 #include <espalier/fitting/task/sized_tasks.h>
 

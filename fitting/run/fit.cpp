@@ -1,11 +1,11 @@
 #include <algorithm>
 
+#include <espalier/fitting/record/species_components.h>
 #include <espalier/fitting/run/fit.h>
 #include <espalier/fitting/run/fit_run.h>
 #include <espalier/fitting/search/fit_objective.h>
 #include <espalier/fitting/starts/fit_plan.h>
 #include <espalier/fitting/task/record_task.h>
-#include <espalier/fitting/task/species_components.h>
 #include <espalier/models/models.h>
 
 namespace espalier {

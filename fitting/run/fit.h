@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include <espalier/fitting/record/fit_record.h>
 #include <espalier/fitting/run/run_directory.h>
-#include <espalier/fitting/task/fit_record.h>
 #include <espalier/fitting/task/fit_task.h>
 #include <espalier/fitting/task/plant_scorer.h>
 #include <espalier/render/scanlines/scanline_renderer.h>

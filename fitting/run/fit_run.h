@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
+#include <espalier/fitting/record/search_space.h>
 #include <espalier/fitting/run/fit.h>
 #include <espalier/fitting/run/run_directory.h>
 #include <espalier/fitting/search/logged_scorer.h>
 #include <espalier/fitting/search/space_search.h>
 #include <espalier/fitting/starts/fit_plan.h>
 #include <espalier/fitting/task/plant_scorer.h>
-#include <espalier/fitting/task/search_space.h>
 #include <espalier/fitting/task/sized_tasks.h>
 
 namespace espalier {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <espalier/fitting/branches/solution.h>
-#include <espalier/fitting/task/fit_record.h>
+#include <espalier/fitting/record/fit_record.h>
 #include <espalier/fitting/task/fit_task.h>
 #include <espalier/fitting/task/sized_tasks.h>
 

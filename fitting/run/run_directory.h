@@ -8,10 +8,10 @@
 
 #include <espalier/fitting/branches/branch_rounds.h>
 #include <espalier/fitting/certainty/certainty.h>
+#include <espalier/fitting/record/fit_record.h>
 #include <espalier/fitting/run/full_size.h>
 #include <espalier/fitting/search/logged_scorer.h>
 #include <espalier/fitting/search/trace.h>
-#include <espalier/fitting/task/fit_record.h>
 #include <espalier/fitting/task/fit_task.h>
 #include <espalier/fitting/task/plant_scorer.h>
 

@@ -1,8 +1,8 @@
 // The function an optimiser minimises: a point of the unit box becomes parameter values, and those a score.
 #pragma once
 #include <espalier/fitting/optimizers/optimizer.h>
+#include <espalier/fitting/record/search_space.h>
 #include <espalier/fitting/task/scorer.h>
-#include <espalier/fitting/task/search_space.h>
 
 namespace espalier {
 

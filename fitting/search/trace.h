@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <espalier/charts/line_chart.h>
+#include <espalier/fitting/record/fit_stages.h>
 #include <espalier/fitting/search/logged_scorer.h>
-#include <espalier/fitting/task/fit_stages.h>
 #include <espalier/image/measures/metric_table.h>
 
 namespace espalier {

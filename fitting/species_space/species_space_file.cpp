@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include <espalier/core/error.h>
-#include <espalier/core/toml_file.h>
+#include <espalier/core/toml/toml_file.h>
 #include <espalier/fitting/species_space/species_space_file.h>
 #include <espalier/models/models.h>
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <espalier/fitting/record/fit_record.h>
 #include <espalier/fitting/starts/start_points.h>
-#include <espalier/fitting/task/fit_record.h>
 #include <espalier/fitting/task/fit_task.h>
 
 namespace espalier {

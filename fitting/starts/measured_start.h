@@ -7,7 +7,7 @@
 #include <string>
 
 #include <espalier/fitting/picture/picture_reading.h>
-#include <espalier/fitting/task/search_space.h>
+#include <espalier/fitting/record/search_space.h>
 #include <espalier/plant/model.h>
 
 namespace espalier {

@@ -6,7 +6,7 @@
 
 #include <espalier/core/parameter_table.h>
 #include <espalier/core/random.h>
-#include <espalier/fitting/task/search_space.h>
+#include <espalier/fitting/record/search_space.h>
 #include <espalier/overrides/overrides.h>
 #include <espalier/plant/model.h>
 

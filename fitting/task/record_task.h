@@ -1,6 +1,6 @@
 // The task that a record describes: its pictures read, its objective parsed, its seeds listed.
 #pragma once
-#include <espalier/fitting/task/fit_record.h>
+#include <espalier/fitting/record/fit_record.h>
 #include <espalier/fitting/task/fit_task.h>
 
 namespace espalier {

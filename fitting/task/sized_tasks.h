@@ -3,7 +3,7 @@
 #pragma once
 #include <map>
 
-#include <espalier/fitting/task/fit_record.h>
+#include <espalier/fitting/record/fit_record.h>
 #include <espalier/fitting/task/fit_task.h>
 
 namespace espalier {

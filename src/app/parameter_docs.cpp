@@ -67,14 +67,6 @@ std::string help_of(const ParameterInfo& row) {
   return row.choices.empty() ? row.help : fmt::format("{}: {}", row.help, fmt::join(row.choices, ", "));
 }
 
-std::string markdown_line(const RowGroup& group) {
-  const ParameterInfo& row = *group.front();
-  return fmt::format("| `{}` | {} | {} … {} | {} … {} | {} | {} | {} | {} | {} | {} |\n", group_name(group),
-                     unit_of(row), row.lower, row.upper, row.search_lower, row.search_upper,
-                     scale_name(row.scale), defaults_of(group), free_levels(group), row.symbol,
-                     roles_of(group), help_of(row));
-}
-
 /// "trunk_form, branch_length[n]", n being the row's level.
 std::string roles_of(const RowGroup& group) {
   std::vector<std::string> names;
@@ -84,6 +76,14 @@ std::string roles_of(const RowGroup& group) {
     if (!name.empty() && (names.empty() || names.back() != name)) names.push_back(name);
   }
   return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string markdown_line(const RowGroup& group) {
+  const ParameterInfo& row = *group.front();
+  return fmt::format("| `{}` | {} | {} … {} | {} … {} | {} | {} | {} | {} | {} | {} |\n", group_name(group),
+                     unit_of(row), row.lower, row.upper, row.search_lower, row.search_upper,
+                     scale_name(row.scale), defaults_of(group), free_levels(group), row.symbol,
+                     roles_of(group), help_of(row));
 }
 
 nlohmann::ordered_json row_as_json(const ParameterInfo& row) {

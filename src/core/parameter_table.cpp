@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <espalier/core/assignment.h>
 #include <espalier/core/error.h>
 #include <espalier/core/parameter_table.h>
 

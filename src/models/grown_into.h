@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <espalier/core/toml_section.h>
+#include <espalier/core/toml/toml_section.h>
 #include <espalier/environment/volume.h>
 #include <espalier/render/camera.h>
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include <espalier/core/error.h>
-#include <espalier/core/toml_file.h>
+#include <espalier/core/toml/toml_file.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 #include <espalier/models/preset_reader.h>

@@ -2,7 +2,7 @@
 #include <optional>
 
 #include <espalier/core/error.h>
-#include <espalier/core/toml_file.h>
+#include <espalier/core/toml/toml_file.h>
 #include <espalier/models/preset_reader.h>
 
 namespace espalier {

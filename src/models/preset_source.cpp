@@ -2,7 +2,7 @@
 
 #include <espalier/core/error.h>
 #include <espalier/core/parameter_table.h>
-#include <espalier/core/toml_file.h>
+#include <espalier/core/toml/toml_file.h>
 #include <espalier/models/preset.h>
 #include <espalier/models/preset_source.h>
 

@@ -1,7 +1,7 @@
 // Writes a preset as TOML in the order of its model's table, a line a key with its unit and help;
 // load_preset reads it back to the same bits. Numbers are the shortest decimals that do so (fmt's default).
 #include <espalier/core/error.h>
-#include <espalier/core/toml_file.h>
+#include <espalier/core/toml/toml_file.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 #include <espalier/models/preset_reader.h>

@@ -8,7 +8,7 @@
 #pragma once
 #include <string>
 
-#include <espalier/core/toml_section.h>
+#include <espalier/core/toml/toml_section.h>
 #include <espalier/overrides/overrides.h>
 
 namespace espalier {

@@ -6,7 +6,7 @@
 set -euo pipefail
 
 build=$(readlink -f "$1")
-source_dir=$(dirname "$(readlink -f "$0")")/../..
+source_dir=$(readlink -f "$(dirname "$(readlink -f "$0")")/../..")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 prefix=$scratch/moved
@@ -67,32 +67,46 @@ run_examples() {
   expect whorled/best.toml '^model = "whorled_fir"$'
 }
 
+# hidden COMMAND…: runs it where an empty folder lies over the checkout and the build, as if both were deleted;
+# where the system forbids that, it just runs it.
+hidden() {
+  local unshare=(unshare --mount)
+  ((EUID == 0)) || unshare+=(--map-root-user)
+  if ! "${unshare[@]}" mount --bind "$scratch/empty" "$source_dir" 2>/dev/null; then
+    "$@"
+    return
+  fi
+  "${unshare[@]}" bash -c 'mount --bind "$1" "$2" && mount --bind "$1" "$3" && exec "${@:4}"' \
+    bash "$scratch/empty" "$build" "$source_dir" "$@"
+}
+
 run_program() {
-  local espalier=$prefix/bin/espalier
-  quietly "$espalier" fit --evaluations 20 --branch-rounds 0 --size 32 --out bundled
+  local espalier=(hidden "$prefix/bin/espalier")
+  quietly "${espalier[@]}" fit --evaluations 20 --branch-rounds 0 --size 32 --out bundled
   expect bundled/run.toml "^picture = \"$share/targets/"
-  quietly "$espalier" mask quaking_aspen -o mask.png
-  quietly "$espalier" render palm --size 64 --samples 1 -o render.png
-  quietly "$espalier" lsystem topiary_dinosaur --steps 3 -o dinosaur.png
-  quietly "$espalier" lsystem obstacle --steps 3 -o obstacle.png
+  quietly "${espalier[@]}" mask quaking_aspen -o mask.png
+  quietly "${espalier[@]}" render palm --size 64 --samples 1 -o render.png
+  quietly "${espalier[@]}" lsystem topiary_dinosaur --steps 3 -o dinosaur.png
+  quietly "${espalier[@]}" lsystem obstacle --steps 3 -o obstacle.png
   expect_pictures mask.png render.png dinosaur.png obstacle.png
-  quietly "$espalier" experiment run "$share/experiments/quick.toml" --set evaluations=20 'seeds=[1]' 'targets=["fir"]' \
+  quietly "${espalier[@]}" experiment run "$share/experiments/quick.toml" --set evaluations=20 'seeds=[1]' 'targets=["fir"]' \
     --out quick
-  quietly "$espalier" experiment report quick
+  quietly "${espalier[@]}" experiment report quick
   expect quick/report/index.html '<html'
 }
 
-# The checkout is still there; that nothing is read from it shows when what is installed is damaged.
+# Even where the checkout cannot be hidden, that nothing is read from it shows when what is installed is damaged.
 damage_data() {
   echo damaged >"$share/lsystem/models/obstacle.obj"
   "$prefix/bin/espalier" lsystem obstacle -o none.png 2>damaged.txt && fail "a mesh was read from elsewhere"
-  expect damaged.txt "obstacle"
+  expect damaged.txt "mesh '$share/lsystem/models/obstacle.obj': not readable"
   echo 'raise SystemExit(3)' >"$share/experiments/report/report.py"
   "$prefix/bin/espalier" experiment report quick 2>damaged.txt && fail "report.py was run from elsewhere"
   expect damaged.txt "$share/experiments/report/report.py ended with exit code 3"
 }
 
 cd "$scratch"
+mkdir empty
 install_and_move
 build_with_package examples
 build_with_package tests/install/headers -DEACH="$([[ ${HEADERS-} == each ]] && echo ON || echo OFF)"

@@ -76,6 +76,7 @@ class Repository:
             name = path.relative_to(root).as_posix()
             self.paths.append(name)
             self.words.update(re.findall(r"\w+", name))
+            self.words.add(str(pathlib.PurePosixPath(name).parent).removeprefix("src/").replace("/", "_"))  # a target
             self.add(name, path)
 
     def add(self, name, path):
@@ -102,6 +103,8 @@ class Repository:
         return any(fits(path) for path in self.paths) or (self.root / folder / name).exists()
 
     def has_place(self, place):
+        """NAME and FILE stand for any name."""
+        place = re.sub(r"\b(NAME|FILE)\b", "*", place)
         return bool(list(self.root.glob(place.rstrip("/")))) if "*" in place else (self.root / place).exists()
 
     def headings(self, path):
@@ -143,7 +146,7 @@ def wrong_names(repository, line, is_comment):
     """In Markdown, words such as JavaScript are no names of ours unless they stand in backticks."""
     named = set(CALL.findall(line)) | set(SNAKE_CASE.findall(line)) | set(CAMEL_CASE.findall(line) if is_comment else ())
     for ticked in TICKED.findall(line):
-        named |= set(re.findall(r"^([A-Za-z_]\w*(?:::\w+)*)(?:\(\))?$", ticked))
+        named |= set(re.findall(r"^([A-Za-z]\w*(?:::\w+)*(?<!_))(?:\(\))?$", ticked))
     for identifier in sorted(named):
         if not repository.knows(identifier):
             yield f"names {identifier}, which is nowhere in the code"

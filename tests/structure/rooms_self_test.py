@@ -19,6 +19,7 @@ FILES = {
     "tests/core/error_test.cpp": "",
     "tests/image/masks/mask_test.cpp": "",
     "docs/architecture.md": "| folder | holds |\n|---|---|\n| `src/core` | errors |\n| `src/image/masks` | masks |\n",
+    "src/espalier.h": "#include <espalier/core/error.h>\n",
     "fitting/.keep": "",
     "experiments/program.cpp": '#include "helper.h"\n#include <espalier/core/error.h>\n',
     "experiments/helper.h": "",
@@ -51,6 +52,10 @@ class Rooms(unittest.TestCase):
     def test_an_injected_include_is_named_with_its_line(self):
         self.write("src/core/error.cpp", "#include <espalier/core/error.h>\n\n  #include <espalier/image/masks/mask.h>\n")
         self.expect("src/core/error.cpp:3: includes <espalier/image/masks/mask.h>, but src/core does not use image/masks")
+
+    def test_an_include_of_nothing(self):
+        self.write("src/image/masks/mask.h", "#include <espalier/core/error.h>\n#include <espalier/core/gone.h>\n")
+        self.expect("src/image/masks/mask.h:2: includes <espalier/core/gone.h>, which is not there")
 
     def test_an_entry_that_no_include_needs(self):
         self.write("src/image/masks/mask.h", "")

@@ -52,7 +52,7 @@ fs::path default_picture() {
 /// The picture without an angle, then those with one.
 std::vector<ViewRecord> views_of(const FitArguments& arguments, const std::vector<ViewRecord>& given) {
   std::vector<ViewRecord> views = given;
-  if (!arguments.image.empty()) views.insert(views.begin(), {arguments.image, {}});
+  if (!arguments.image.empty()) views.insert(views.begin(), ViewRecord{arguments.image, {}});
   if (views.empty()) views.push_back({default_picture(), {}});
   std::error_code error;
   for (ViewRecord& view : views) view.picture = fs::absolute(view.picture, error);

@@ -1,5 +1,4 @@
-// espalier params: the parameter table of a model, or that of the options of a fit, as text, Markdown or
-// JSON.
+// espalier params: the parameter table of a model as text, Markdown or JSON.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -7,7 +6,6 @@
 #include <string>
 
 #include <espalier/app/commands/commands.h>
-#include <espalier/app/options/fit_option_docs.h>
 #include <espalier/app/parameter_docs.h>
 #include <espalier/models/models.h>
 
@@ -18,22 +16,16 @@ namespace {
 struct ParamsOptions {
   std::string format = "text";
   std::string model = "weber_penn";
-  bool of_fit = false;
 };
 
-std::string parameters_as(const std::string& format, const ParameterTable& table) {
-  if (format == "markdown") return parameters_as_markdown(table);
-  return format == "json" ? parameters_as_json(table) : parameters_as_text(table);
-}
-
-std::string fit_options_as(const std::string& format) {
-  if (format == "markdown") return fit_options_as_markdown();
-  return format == "json" ? fit_options_as_json() : fit_options_as_text();
-}
-
 void print_parameters(const ParamsOptions& options) {
-  fmt::print("{}", options.of_fit ? fit_options_as(options.format)
-                                  : parameters_as(options.format, model_by_name(options.model).table()));
+  const ParameterTable& table = model_by_name(options.model).table();
+  if (options.format == "markdown")
+    fmt::print("{}", parameters_as_markdown(table));
+  else if (options.format == "json")
+    fmt::print("{}", parameters_as_json(table));
+  else
+    fmt::print("{}", parameters_as_text(table));
 }
 
 }  // namespace
@@ -44,10 +36,7 @@ void add_params_command(CLI::App& app) {
   command->add_option("--format", options->format, "text, markdown or json")
       ->check(CLI::IsMember({"text", "markdown", "json"}))
       ->capture_default_str();
-  CLI::Option* model =
-      command->add_option("--model", options->model, "the model's name")->capture_default_str();
-  command->add_flag("--fit", options->of_fit, "the options of a fit instead: names, keys of files, values")
-      ->excludes(model);
+  command->add_option("--model", options->model, "the model's name")->capture_default_str();
   command->callback([options] { print_parameters(*options); });
 }
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include <espalier/app/options/option_names.h>
-#include <espalier/fitting/task/fit_options.h>
+#include <espalier/fitting/record/fit_options.h>
 
 namespace espalier {
 

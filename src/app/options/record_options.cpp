@@ -2,8 +2,8 @@
 
 #include <espalier/app/options/option_names.h>
 #include <espalier/app/options/record_options.h>
-#include <espalier/fitting/task/fit_options.h>
-#include <espalier/fitting/task/option_values.h>
+#include <espalier/fitting/record/fit_options.h>
+#include <espalier/fitting/record/option_values.h>
 
 namespace espalier {
 
@@ -28,10 +28,9 @@ std::string name_of_option(const FitOption& option) { return option_of(std::stri
 
 /// What the help shows as a default.
 std::string default_of(const FitOption& option) {
-  const OptionValue value = get_value(option, default_request());
-  const bool is_none =
-      option.zero_is_none && (value == OptionValue(std::int64_t{0}) || value == OptionValue(0.0));
-  return is_none || option.says_default ? "" : to_words(value);
+  const std::string words = to_words(get_value(option, default_request()));
+  const bool is_none = option.zero_is_none && words == "0";
+  return is_none || option.says_default ? "" : words;
 }
 
 void add_list(CLI::App& command, const FitOption& option, RecordWords& words) {

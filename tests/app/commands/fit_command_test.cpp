@@ -10,6 +10,10 @@
 #include <random>
 #include <sstream>
 
+#include <espalier/fitting/record/fit_options.h>
+#include <espalier/fitting/record/option_values.h>
+
+#include "support/option_samples.h"
 #include "support/run_espalier.h"
 
 namespace espalier {
@@ -120,6 +124,72 @@ TEST(FitCommand, RefusesBadOptionsInOneLine) {
   for (const char* value : {"nan", "inf", "1e308", "-inf", "1e999", "", "twelve", "99999"})
     expect_error(kPalm + out + " --fix g_scale=" + value, "g_scale");
   EXPECT_FALSE(fs::exists(fs::path(out.substr(7)))) << "nothing is left behind";
+}
+
+/// What no option of this kind takes.
+std::vector<std::string> bad_words(const FitOption& option) {
+  switch (type_of(option)) {
+    case ValueType::whole:
+      return {"many", "2.5", "0x10", "''"};
+    case ValueType::number:
+      return {"many", "nan", "inf", "0x10", "''"};
+    default:
+      return {};
+  }
+}
+
+TEST(FitCommand, EachOptionIsToldByItsNameWhatItCannotTake) {
+  const fs::path run = fresh_folder("each") / "run";
+  for (const FitOption& option : fit_options()) {
+    if (option.option.empty()) continue;
+    std::vector<std::string> words = bad_words(option);
+    for (const std::string& bad : sample_of(option).bad)
+      if (bad.find('[') == std::string::npos)
+        words.push_back(bad);  // a TOML string's quotes are the shell's too
+    const std::string name = fmt::format("--{}", option.option);
+    for (const std::string& word : words)
+      expect_error(kPalm + " --out '" + run.string() + "' " + name + " " + word, name + ": got ");
+  }
+  EXPECT_FALSE(fs::exists(run));
+}
+
+TEST(FitCommand, EachOptionIsInItsHelp) {
+  const std::string help = run_espalier("fit --help").out;
+  for (const FitOption& option : fit_options()) {
+    if (option.option.empty()) continue;
+    EXPECT_THAT(help, HasSubstr(fmt::format("  --{} ", option.option)));
+  }
+}
+
+TEST(FitCommand, ChoicesAreFixedByTheirNames) {
+  const fs::path run = fresh_folder("choice") / "run";
+  ASSERT_EQ(run_espalier(small_fit(run, 5, "--fix leaf_shape=ovate")).exit_code, 0);
+  EXPECT_THAT(read_text_file(run / "run.toml"), HasSubstr("\"leaf_shape\" = 1.0"));
+  expect_error(kPalm + " --fix leaf_shape=0x3", "--fix: got '0x3' for leaf_shape, expected one of ");
+  expect_error(kPalm + " --set-optimizer population=0x10", "--set-optimizer: got '0x10' for population");
+}
+
+TEST(FitCommand, ResumeTakesTheOptionsThatARunMayChange) {
+  for (const FitOption& option : fit_options()) {
+    if (option.option.empty()) continue;
+    const bool flag = type_of(option) == ValueType::flag;
+    const std::string given = fmt::format(" --{}{}", option.option, flag ? "" : " 1");
+    const ProgramRun resumed = run_espalier("fit --resume /nowhere" + given);
+    EXPECT_EQ(resumed.err.find("excludes") == std::string::npos, option.resumable) << resumed.err;
+    EXPECT_THAT(run_espalier("fit --repeat /nowhere" + given).err, HasSubstr("excludes"));
+  }
+}
+
+TEST(FitCommand, ARecordThatWasSpoiledIsToldItsFileLineAndKey) {
+  const fs::path run = fresh_folder("spoiled") / "run";
+  ASSERT_EQ(run_espalier(small_fit(run, 5)).exit_code, 0);
+  std::string text = read_text_file(run / "run.toml");
+  const std::string line = "\nsize_px = 32";
+  ASSERT_NE(text.find(line), std::string::npos);
+  text.replace(text.find(line), line.size(), "\nsize_px = 8");
+  std::ofstream(run / "run.toml") << text;
+  expect_error("--resume '" + run.string() + "'",
+               "run.toml:20: target.size_px: got 8, expected a whole number 16..4096 (px)");
 }
 
 TEST(FitCommand, AcceptsMinusZeroAsZero) {

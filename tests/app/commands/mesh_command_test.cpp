@@ -144,6 +144,7 @@ TEST_F(MeshCommand, BadDetailsSeedsAndParametersAreRefused) {
   expect_refused(kSmallTree + " --seed -1", "a.glb", "expected a whole number");
   expect_refused(kSmallTree + " --set g_scale", "a.glb", "expected name=value");
   expect_refused(kSmallTree + " --set g_scale=", "a.glb", "got '' for g_scale");
+  expect_refused(kSmallTree + " --set leaf_shape=0x3", "a.glb", "got '0x3' for leaf_shape");
   expect_refused(kSmallTree + " --set g_scale=nan", "a.glb", "g_scale");
   expect_refused(kSmallTree + " --set levels=9", "a.glb", "levels");
   expect_refused(kSmallTree + " --set g_skale=3", "a.glb", "g_skale");

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <espalier/fitting/record/fit_options.h>
 #include <espalier/image/measures/metric_table.h>
 #include <espalier/lsystem/strings/turtle_commands.h>
 
@@ -32,6 +33,13 @@ TEST(ReferenceCommand, HasALineForEachCommandOfTheTurtle) {
     EXPECT_THAT(help.out, HasSubstr(std::string(info.help)));
   }
   EXPECT_THAT(read_text_file(ESPALIER_SOURCE_DIR "/docs/lsystem.md"), HasSubstr(run.out));
+}
+
+TEST(ReferenceCommand, HasALineForEachOptionOfAFit) {
+  const ProgramRun run = run_espalier("reference fit");
+  for (const FitOption& option : fit_options())
+    EXPECT_THAT(run.out, HasSubstr(fmt::format("`{}` |", option.key)));
+  EXPECT_THAT(read_text_file(ESPALIER_SOURCE_DIR "/docs/fit_options.md"), HasSubstr(run.out));
 }
 
 TEST(ReferenceCommand, RefusesAnUnknownTopic) {

@@ -89,6 +89,27 @@ TEST(ExperimentCommand, AFailedRunIsARowAndTheOthersGoOn) {
   EXPECT_EQ(results.text(1, "status"), "done");
 }
 
+TEST(ExperimentCommand, FailsWhereAllRunsFailed) {
+  const fs::path study = file_with("study.toml",
+                                   "[fits]\ntargets = ['oc_palm']\noptimizers = ['GN_AGS']\n"
+                                   "evaluations = 20\nsize = 32\nseeds = 2\n");
+  const fs::path out = fresh_folder("all_failed") / "out";
+  const ProgramRun run =
+      run_espalier("experiment run '" + study.string() + "' --quiet --out '" + out.string() + "'");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("all 2 runs failed"));
+  EXPECT_THAT(run.err, HasSubstr("free parameters"));
+}
+
+TEST(ExperimentCommand, RefusesBadValuesBeforeTheFirstRun) {
+  const fs::path study =
+      file_with("study.toml", "[fits]\ntargets = ['oc_palm']\nevaluations = 20\nkind = 'leavy'\n");
+  const fs::path out = fresh_folder("refused") / "out";
+  expect_error("experiment run '" + study.string() + "' --out '" + out.string() + "'",
+               "study.toml:4: kind: got 'leavy', expected auto, any, leafy, leafless, palm");
+  EXPECT_FALSE(fs::exists(out));
+}
+
 TEST(ExperimentCommand, TheTrueParametersAreScoredOnTheSameUnseenSeeds) {
   const fs::path out = fresh_folder("truth") / "out";
   ASSERT_EQ(run_espalier(run_arguments(small_study(), out)).exit_code, 0);

@@ -146,24 +146,24 @@ TEST(CmaDistribution, FollowsTheTutorialOnASlopeWhereTheRankOneUpdateStalls) {
   EXPECT_LT(stalled, 20);
 }
 
-constexpr Eigen::Index kDimension = 6;
-constexpr std::size_t kLambda = 9;
+constexpr Eigen::Index kParameters = 6;
+constexpr std::size_t kCandidates = 9;
 
 /// Nine candidates: the better four all at `step` from the mean, the others each along an axis, but the
 /// first.
 Candidates at_step(const CmaDistribution& cma, const Eigen::VectorXd& step) {
   Candidates candidates(4, cma.mean() + cma.sigma() * step);
-  for (Eigen::Index axis = 1; axis < kDimension; ++axis)
-    candidates.push_back(cma.mean() + cma.sigma() * Eigen::VectorXd::Unit(kDimension, axis));
+  for (Eigen::Index axis = 1; axis < kParameters; ++axis)
+    candidates.push_back(cma.mean() + cma.sigma() * Eigen::VectorXd::Unit(kParameters, axis));
   return candidates;
 }
 
-CmaDistribution at_origin() { return {Eigen::VectorXd::Zero(kDimension), 1, kLambda}; }
+CmaDistribution at_origin() { return {Eigen::VectorXd::Zero(kParameters), 1, kCandidates}; }
 
 /// To the rank-mu update y and -y are the same; the path tells a way that is kept from one that turns back.
 TEST(CmaDistribution, TheRankOnePathLengthensTheDirectionThatIsKept) {
   CmaDistribution keeps = at_origin(), turns = at_origin();
-  const Eigen::VectorXd step = Eigen::VectorXd::Unit(kDimension, 0);
+  const Eigen::VectorXd step = Eigen::VectorXd::Unit(kParameters, 0);
   for (int generation = 0; generation < 4; ++generation) {
     keeps.update(at_step(keeps, step));
     turns.update(at_step(turns, generation % 2 == 0 ? step : -step));
@@ -174,8 +174,8 @@ TEST(CmaDistribution, TheRankOnePathLengthensTheDirectionThatIsKept) {
 TEST(CmaDistribution, TheStepGrowsWhereThePathIsLongerThanChanceAndShrinksWhereItIsShorter) {
   CmaDistribution walks = at_origin(), rests = at_origin();
   for (int generation = 0; generation < 5; ++generation) {
-    walks.update(at_step(walks, Eigen::VectorXd::Ones(kDimension)));
-    rests.update(at_step(rests, 1e-3 * Eigen::VectorXd::Ones(kDimension)));
+    walks.update(at_step(walks, Eigen::VectorXd::Ones(kParameters)));
+    rests.update(at_step(rests, 1e-3 * Eigen::VectorXd::Ones(kParameters)));
   }
   EXPECT_GT(walks.sigma(), 1.5);
   EXPECT_LT(rests.sigma(), 0.7);
@@ -184,7 +184,7 @@ TEST(CmaDistribution, TheStepGrowsWhereThePathIsLongerThanChanceAndShrinksWhereI
 TEST(CmaDistribution, ALimitedStepIsNoLongerThanTheLimitAndKeepsItsShape) {
   CmaDistribution cma = at_origin();
   for (int generation = 0; generation < 4; ++generation)
-    cma.update(at_step(cma, Eigen::VectorXd::Unit(kDimension, 0)));
+    cma.update(at_step(cma, Eigen::VectorXd::Unit(kParameters, 0)));
   const Eigen::MatrixXd before = cma.covariance();
   const double longest = std::sqrt(before(0, 0));
   cma.limit_sigma(0.25);

@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-constexpr std::size_t kDimension = 20, kPopulation = 100;
+constexpr std::size_t kGenes = 20, kPopulation = 100;
 using Point = std::vector<double>;
 
 /// A generation without elites: its points and their values.
@@ -30,14 +30,14 @@ std::vector<Generation> run_ga(OptimizerSettings settings, std::size_t generatio
   settings.insert({"elites", 0});
   Trace trace;
   const Budget budget{long(kPopulation * generations)};
-  optimizer_by_name("ga").minimize(Sphere(kDimension), settings, budget, {}, 3, trace);
+  optimizer_by_name("ga").minimize(Sphere(kGenes), settings, budget, {}, 3, trace);
   std::vector<Generation> all;
   std::size_t row = 0;
   for (const std::size_t size : trace.batch_sizes) {
     Generation& generation = all.emplace_back();
     for (std::size_t i = 0; i < size; ++i, ++row) {
-      const auto first = trace.points.begin() + long(row * kDimension);
-      generation.points.emplace_back(first, first + kDimension);
+      const auto first = trace.points.begin() + long(row * kGenes);
+      generation.points.emplace_back(first, first + kGenes);
       generation.values.push_back(trace.values[row]);
     }
   }
@@ -46,7 +46,7 @@ std::vector<Generation> run_ga(OptimizerSettings settings, std::size_t generatio
 
 std::size_t in_common(const Point& a, const Point& b) {
   std::size_t count = 0;
-  for (std::size_t i = 0; i < kDimension; ++i) count += a[i] == b[i];
+  for (std::size_t i = 0; i < kGenes; ++i) count += a[i] == b[i];
   return count;
 }
 
@@ -60,7 +60,7 @@ std::size_t from_one_parent(const Point& child, const std::vector<Point>& parent
 /// The coordinates that the point has from any parent, in the same place.
 std::size_t from_any_parent(const Point& child, const std::vector<Point>& parents) {
   std::size_t count = 0;
-  for (std::size_t i = 0; i < kDimension; ++i)
+  for (std::size_t i = 0; i < kGenes; ++i)
     count += std::any_of(parents.begin(), parents.end(), [&](const Point& p) { return p[i] == child[i]; });
   return count;
 }
@@ -81,16 +81,16 @@ TEST(Ga, ChildrenThatAreNotCrossedHaveOneParent) {
 TEST(Ga, AnUncrossedChildMutatesOneCoordinateOnAverage) {
   const auto run = run_ga({{"crossover_chance", 0}}, 2);
   const double kept = mean_over(run[1], [&](const Point& p) { return from_one_parent(p, run[0].points); });
-  EXPECT_NEAR(double(kDimension) - kept, 1.02, 5 / std::sqrt(double(kPopulation)));
+  EXPECT_NEAR(double(kGenes) - kept, 1.02, 5 / std::sqrt(double(kPopulation)));
 }
 
 TEST(Ga, UniformCrossoverGivesEachParentHalfOfTheCoordinates) {
   const auto run = run_ga({{"crossover_chance", 1}, {"crossover", 1}, {"tournament", 1}}, 2);
   const auto of_both = [&](const Point& p) { return from_any_parent(p, run[0].points); };
   const auto of_one = [&](const Point& p) { return from_one_parent(p, run[0].points); };
-  EXPECT_NEAR(mean_over(run[1], of_both), kDimension - 1.02, 0.5);
+  EXPECT_NEAR(mean_over(run[1], of_both), kGenes - 1.02, 0.5);
   // The larger part of 20 fair coins is 11.8 in the mean, less a mutation of half of them.
-  EXPECT_NEAR(mean_over(run[1], of_one), 11.8 * (1 - 1.02 / kDimension), 0.8);
+  EXPECT_NEAR(mean_over(run[1], of_one), 11.8 * (1 - 1.02 / kGenes), 0.8);
 }
 
 TEST(Ga, SbxMovesAllCoordinatesAndLessWithALargerIndex) {
@@ -101,7 +101,7 @@ TEST(Ga, SbxMovesAllCoordinatesAndLessWithALargerIndex) {
       double least = 1e9;
       for (const Point& parent : run[0].points) {
         double sum = 0;
-        for (std::size_t i = 0; i < kDimension; ++i) sum += std::fabs(child[i] - parent[i]);
+        for (std::size_t i = 0; i < kGenes; ++i) sum += std::fabs(child[i] - parent[i]);
         least = std::min(least, sum);
       }
       return least;
@@ -124,14 +124,14 @@ TEST(Ga, TheLargestTournamentMakesAllChildrenThoseOfTheBest) {
   const auto run = run_ga({{"crossover_chance", 0}, {"tournament", 1000}}, 4);
   for (std::size_t g = 1; g < run.size(); ++g)
     for (const Point& child : run[g].points)
-      EXPECT_GE(in_common(child, run[g - 1].best()), kDimension - 8) << "generation " << g;
+      EXPECT_GE(in_common(child, run[g - 1].best()), kGenes - 8) << "generation " << g;
 }
 
 TEST(Ga, ATournamentOfOneTakesAnyParent) {
   const auto run = run_ga({{"crossover_chance", 0}, {"tournament", 1}}, 2);
   std::size_t with_children = 0;
   for (const Point& parent : run[0].points)
-    with_children += from_one_parent(parent, run[1].points) >= kDimension - 8;
+    with_children += from_one_parent(parent, run[1].points) >= kGenes - 8;
   EXPECT_NEAR(double(with_children), 100 * (1 - std::exp(-1.0)), 25);
 }
 
@@ -144,7 +144,7 @@ TEST(Ga, AnEliteStaysAParentUntilABetterOneIsFound) {
     EXPECT_EQ(run[g].points.size(), g == 0 ? kPopulation : kPopulation - 1);
     const double value = *std::min_element(run[g].values.begin(), run[g].values.end());
     if (value < best_value) best_value = value, best = run[g].best();
-    for (const Point& child : run[g + 1].points) EXPECT_GE(in_common(child, best), kDimension - 10);
+    for (const Point& child : run[g + 1].points) EXPECT_GE(in_common(child, best), kGenes - 10);
   }
 }
 

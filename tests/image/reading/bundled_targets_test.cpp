@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <set>
 
-#include <espalier/core/toml_file.h>
+#include <espalier/core/toml/toml_file.h>
 #include <espalier/image/measures/compare.h>
 #include <espalier/image/reading/read_target.h>
 #include <espalier/image/reading/roots.h>

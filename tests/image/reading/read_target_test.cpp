@@ -283,15 +283,15 @@ TEST_P(BadFrameSize, IsRefused) { EXPECT_THROW(check_frame_size(GetParam()), Inp
 INSTANTIATE_TEST_SUITE_P(Sizes, BadFrameSize, testing::Values(-1, 0, 15, 4097, 2'000'000'000));
 
 TEST(TargetOptions, UnknownNamesAreRefusedWithTheKnownOnes) {
-  EXPECT_EQ(parse_separation_method("alpha"), SeparationMethod::alpha);
-  EXPECT_EQ(parse_tree_side("dark"), TreeSide::dark);
+  EXPECT_EQ(parse_name<SeparationMethod>("alpha"), SeparationMethod::alpha);
+  EXPECT_EQ(parse_name<TreeSide>("dark"), TreeSide::dark);
   try {
-    parse_separation_method("alhpa");
+    parse_name<SeparationMethod>("alhpa");
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("auto, alpha, luminance, background"));
   }
-  EXPECT_THROW(parse_tree_side("left"), InputError);
+  EXPECT_THROW(parse_name<TreeSide>("left"), InputError);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace espalier {
 namespace {
 
-constexpr float kLengthM = 8;
+constexpr float kParentM = 8;
 
 /// A straight upright stem of one segment that bears about forty children.
 WeberPennParameters bearing() {
@@ -30,12 +30,12 @@ WeberPennParameters bearing() {
 std::vector<ChildSite> sites(const WeberPennParameters& p, Seed seed = 1) {
   GrowingStem stem;
   stem.key = root_key(seed);
-  stem.length_m = kLengthM;
+  stem.length_m = kParentM;
   stem.radius_m = 0.1f;
   Segment segment;
-  segment.handle_out_m = {0, 0, kLengthM / 3};
-  segment.handle_in_m = {0, 0, 2 * kLengthM / 3};
-  segment.end_m = {0, 0, kLengthM};
+  segment.handle_out_m = {0, 0, kParentM / 3};
+  segment.handle_in_m = {0, 0, 2 * kParentM / 3};
+  segment.end_m = {0, 0, kParentM};
   segment.z_end = 1;
   segment.end.position_m = segment.end_m;
   ChildPlacer placer(stem, ChildPlacer::Bears::stems, p);
@@ -113,7 +113,7 @@ TEST(Children, ChangeTheirDownAngleAlongTheParentWhereDownAngleVIsNegative) {
   WeberPennParameters p = bearing();
   p.down_angle_v[1] = -40;
   for (const ChildSite& site : sites(p)) {
-    const float ratio = (kLengthM - site.offset_m) / (kLengthM * 0.8f);
+    const float ratio = (kParentM - site.offset_m) / (kParentM * 0.8f);
     const float shaped = 50 - 40 * (1 - 2 * (0.2f + 0.8f * ratio));
     EXPECT_NEAR(declination_deg(site.turtle.forward), shaped, 0.1 * std::fabs(shaped) + 0.1);
   }

@@ -10,10 +10,10 @@
 namespace espalier {
 namespace {
 
-constexpr int kSegments = 8, kStems = 400;
-constexpr float kLengthM = 10;
+constexpr int kHelixSegments = 8, kHelixStems = 400;
+constexpr float kHelixLengthM = 10;
 
-class Segments : public StemVisitor {
+class HelixWalk : public StemVisitor {
  public:
   bool segment(const GrowingStem&, const Segment& segment) override {
     all.push_back(segment);
@@ -27,12 +27,12 @@ class Segments : public StemVisitor {
 std::vector<Segment> helix_of(float curve_v, Seed seed) {
   WeberPennParameters p = weber_penn_parameters(weber_penn_table().defaults());
   p.curve_v[1] = curve_v;
-  p.curve_res[1] = kSegments;
+  p.curve_res[1] = kHelixSegments;
   GrowingStem stem;
   stem.key = root_key(seed);
   stem.level = 1;
-  stem.length_m = kLengthM;
-  Segments segments;
+  stem.length_m = kHelixLengthM;
+  HelixWalk segments;
   walk_helix(stem, p, segments);
   return segments.all;
 }
@@ -54,11 +54,11 @@ TEST(Helix, HasThePitchAndTheRadiusOfItsFormulas) {
   for (const float curve_v : {-20.f, -45.f, -70.f}) {
     const double theta = (90 - std::fabs(curve_v)) * M_PI / 180;
     std::vector<double> pitches, radii;
-    for (Seed seed = 0; seed < kStems; ++seed) {
+    for (Seed seed = 0; seed < kHelixStems; ++seed) {
       const std::vector<Segment> segments = helix_of(curve_v, seed);
-      ASSERT_EQ(segments.size(), std::size_t(kSegments));
+      ASSERT_EQ(segments.size(), std::size_t(kHelixSegments));
       const double pitch_m = 2.0 * segments[0].end_m.z;
-      pitches.push_back(pitch_m / (2.0 * kLengthM / kSegments));
+      pitches.push_back(pitch_m / (2.0 * kHelixLengthM / kHelixSegments));
       radii.push_back(across_m(segments[0].start_m, segments[0].end_m) / 2 /
                       (3 * pitch_m / (16 * std::tan(theta))));
     }

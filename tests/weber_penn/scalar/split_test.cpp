@@ -9,7 +9,7 @@
 namespace espalier {
 namespace {
 
-class Walked : public StemVisitor {
+class SplitWalk : public StemVisitor {
  public:
   bool segment(const GrowingStem&, const Segment& segment) override {
     all.push_back(segment);
@@ -40,13 +40,13 @@ GrowingStem trunk(Seed seed = 1) {
   return stem;
 }
 
-Walked walked(const GrowingStem& stem, const WeberPennParameters& p) {
-  Walked visitor;
+SplitWalk split_walk(const GrowingStem& stem, const WeberPennParameters& p) {
+  SplitWalk visitor;
   walk_stem(stem, p, visitor);
   return visitor;
 }
 
-Vec3 heading(const Segment& segment) { return normalized(segment.end_m - segment.handle_in_m); }
+Vec3 heading_of(const Segment& segment) { return normalized(segment.end_m - segment.handle_in_m); }
 
 float between_deg(Vec3 a, Vec3 b) { return degrees(std::acos(std::fmin(1.f, dot(a, b)))); }
 
@@ -54,52 +54,52 @@ float between_deg(Vec3 a, Vec3 b) { return degrees(std::acos(std::fmin(1.f, dot(
 std::vector<float> turns_deg(const std::vector<Segment>& segments) {
   std::vector<float> turns;
   for (std::size_t i = 1; i < segments.size(); ++i)
-    turns.push_back(between_deg(heading(segments[i - 1]), heading(segments[i])));
+    turns.push_back(between_deg(heading_of(segments[i - 1]), heading_of(segments[i])));
   return turns;
 }
 
 TEST(Split, TheStemLeansByHalfOfTheAngleAndPaysItBackInEqualParts) {
-  const std::vector<float> turns = turns_deg(walked(trunk(), splitting(42)).all);
+  const std::vector<float> turns = turns_deg(split_walk(trunk(), splitting(42)).all);
   ASSERT_EQ(turns.size(), 9u);
   for (std::size_t at = 1; at <= 9; ++at)  // the end of segment `at`
     EXPECT_NEAR(turns[at - 1], at < 3 ? 0 : at == 3 ? 21 : 42.0 / 7, 0.1) << at;
 }
 
 TEST(Split, WhatIsPaidBackTurnsTheStemTowardsWhereItCameFrom) {
-  const std::vector<Segment> segments = walked(trunk(), splitting(42)).all;
-  const Vec3 leaning = heading(segments[3]);
+  const std::vector<Segment> segments = split_walk(trunk(), splitting(42)).all;
+  const Vec3 leaning = heading_of(segments[3]);
   EXPECT_NEAR(declination_deg(leaning), 21, 0.1);
-  EXPECT_NEAR(declination_deg(heading(segments[6])), 21 - 3 * 6, 0.2);
+  EXPECT_NEAR(declination_deg(heading_of(segments[6])), 21 - 3 * 6, 0.2);
   // Six parts of seven are paid by the last segment: 36 degrees back from 21, beyond the vertical.
-  EXPECT_NEAR(declination_deg(heading(segments[9])), 36 - 21, 0.2);
-  const Vec3 last = heading(segments[9]);
+  EXPECT_NEAR(declination_deg(heading_of(segments[9])), 36 - 21, 0.2);
+  const Vec3 last = heading_of(segments[9]);
   EXPECT_LT(leaning.x * last.x + leaning.y * last.y, 0);
 }
 
 TEST(Split, ClonesLeanAndPayBackAsTheStemDoes) {
-  const Walked stem = walked(trunk(), splitting(42));
+  const SplitWalk stem = split_walk(trunk(), splitting(42));
   ASSERT_EQ(stem.clones.size(), 1u);
   EXPECT_NEAR(declination_deg(stem.clones[0].turtle.forward), 21, 0.1);
-  const std::vector<float> turns = turns_deg(walked(stem.clones[0], splitting(42)).all);
+  const std::vector<float> turns = turns_deg(split_walk(stem.clones[0], splitting(42)).all);
   ASSERT_EQ(turns.size(), 6u);
   for (const float turn : turns) EXPECT_NEAR(turn, 6, 0.1);
 }
 
 /// split_angle < 0: in the plane of the stem, nothing is paid back.
 TEST(Split, FlatForksArePaidBackByNobody) {
-  const Walked stem = walked(trunk(), splitting(-42));
+  const SplitWalk stem = split_walk(trunk(), splitting(-42));
   const std::vector<float> turns = turns_deg(stem.all);
   for (std::size_t at = 1; at <= 9; ++at) EXPECT_NEAR(turns[at - 1], at == 3 ? 21 : 0, 0.1) << at;
-  EXPECT_NEAR(between_deg(stem.clones[0].turtle.forward, heading(stem.all[3])), 42, 0.1);
+  EXPECT_NEAR(between_deg(stem.clones[0].turtle.forward, heading_of(stem.all[3])), 42, 0.1);
 }
 
 /// The parts of a base split stand round the stem.
 TEST(Split, PartsAtTheBaseAreSpreadEvenlyRoundTheStem) {
   WeberPennParameters p = splitting(42);
   p.base_splits = 3;
-  const Walked stem = walked(trunk(), p);
+  const SplitWalk stem = split_walk(trunk(), p);
   ASSERT_EQ(stem.clones.size(), 3u);
-  std::vector<Vec3> parts = {heading(stem.all[3])};
+  std::vector<Vec3> parts = {heading_of(stem.all[3])};
   for (const GrowingStem& clone : stem.clones) parts.push_back(clone.turtle.forward);
   for (std::size_t i = 1; i < parts.size(); ++i) {
     const float turn = std::atan2(parts[i].y, parts[i].x) - std::atan2(parts[i - 1].y, parts[i - 1].x);
@@ -111,10 +111,10 @@ TEST(Split, PartsAtTheBaseAreSpreadEvenlyRoundTheStem) {
 TEST(Split, TheAngleIsLessByTheDeclinationOfTheStem) {
   GrowingStem stem = trunk();
   stem.turtle.rotate_about({1, 0, 0}, 30);
-  const std::vector<float> turns = turns_deg(walked(stem, splitting(42)).all);
+  const std::vector<float> turns = turns_deg(split_walk(stem, splitting(42)).all);
   EXPECT_NEAR(turns[3], (42.0 - 30) / 7, 0.1);
   stem.turtle.rotate_about({1, 0, 0}, 30);
-  EXPECT_NEAR(turns_deg(walked(stem, splitting(42)).all)[3], 0, 0.1);
+  EXPECT_NEAR(turns_deg(split_walk(stem, splitting(42)).all)[3], 0, 0.1);
 }
 
 }  // namespace

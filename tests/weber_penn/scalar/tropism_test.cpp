@@ -9,7 +9,7 @@
 namespace espalier {
 namespace {
 
-class Segments : public StemVisitor {
+class TropicWalk : public StemVisitor {
  public:
   bool segment(const GrowingStem&, const Segment& segment) override {
     all.push_back(segment);
@@ -31,7 +31,7 @@ std::vector<Vec3> headings(int level, Vec3 tropism) {
   stem.level = level;
   stem.length_m = 4;
   stem.turtle.rotate_about({0, 1, 0}, 90);
-  Segments segments;
+  TropicWalk segments;
   walk_stem(stem, p, segments);
   std::vector<Vec3> all;
   for (const Segment& segment : segments.all) all.push_back(normalized(segment.end_m - segment.handle_in_m));

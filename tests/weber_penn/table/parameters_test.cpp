@@ -57,6 +57,31 @@ TEST(WeberPennTable, EachRowMovesAFieldOfItsOwn) {
   EXPECT_EQ(moved.size(), plain.size());
 }
 
+TEST(WeberPennTable, EachRoleIsBorneOnceAndOfItsRowsLevel) {
+  const ParameterTable& table = weber_penn_table();
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const auto [role, level] = table.rows[i].role;
+    if (role == Role::none || role == Role::trunk_form) continue;
+    EXPECT_EQ(table.find(role, level), i) << table.rows[i].full_name();
+    EXPECT_EQ(level, goes_by_level(role) ? table.rows[i].level : -1) << table.rows[i].full_name();
+  }
+}
+
+TEST(WeberPennTable, PlainValuesAreValid) {
+  for (const ParameterInfo& row : weber_penn_table().rows)
+    if (row.plain) {
+      EXPECT_NO_THROW(check_value(row, *row.plain, "plain")) << row.full_name();
+    }
+}
+
+/// What forms a trunk besides its roles is held at its plain value where a trunk is held.
+TEST(WeberPennTable, WhatFormsATrunkHasAPlainValue) {
+  for (const ParameterInfo& row : weber_penn_table().rows)
+    if (row.role.role == Role::trunk_form) {
+      EXPECT_TRUE(row.plain) << row.full_name();
+    }
+}
+
 TEST(LevelIndex, DeeperLevelsUseTheLastValues) {
   EXPECT_EQ(level_index(0), 0);
   EXPECT_EQ(level_index(3), 3);

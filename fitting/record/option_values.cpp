@@ -7,7 +7,7 @@
 
 #include <espalier/core/assignment.h>
 #include <espalier/core/field_error.h>
-#include <espalier/fitting/task/option_values.h>
+#include <espalier/fitting/record/option_values.h>
 
 namespace espalier {
 

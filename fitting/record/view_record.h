@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <espalier/core/toml_section.h>
+#include <espalier/core/toml/toml_section.h>
 #include <espalier/render/camera.h>
 
 namespace espalier {
@@ -14,7 +14,7 @@ struct ViewRecord {
   View view;
 };
 
-/// "FILE", "FILE:azimuth,elevation" or "FILE:azimuth,elevation,field_of_view" (degrees; with the
+/// "FILE", "FILE:azimuth,elevation" or "FILE:azimuth,elevation,field of view" (degrees; with the
 /// last one in perspective). Throws FieldError on numbers that are none or out of range.
 ViewRecord parse_view(const std::string& text);
 

@@ -8,7 +8,7 @@
 #include <functional>
 
 #include <espalier/core/error.h>
-#include <espalier/fitting/task/fit_record.h>
+#include <espalier/fitting/record/fit_record.h>
 
 #include "support/run_espalier.h"
 
@@ -96,9 +96,14 @@ RC_GTEST_PROP(FitRecord, NumbersKeepTheirBits, (double value)) {
 
 TEST(FitRecord, NamesFileAndKeyOfWhatIsMissingOrWrong) {
   const std::string text = record_to_toml(full_record(), {});
-  EXPECT_THAT(reading_error(replaced(text, "fit_seeds = 3\n", "")), HasSubstr("key 'fit_seeds'"));
-  EXPECT_THAT(reading_error(replaced(text, "seconds = 0.1", "seconds = \"long\"")), HasSubstr("run.toml:"));
-  EXPECT_THAT(reading_error(replaced(text, "format = 1", "format = 9")), HasSubstr("got 9"));
+  EXPECT_THAT(
+      reading_error(replaced(text, "fit_seeds = 3\n", "")),
+      HasSubstr(
+          "run.toml: fit_seeds: got nothing (written by espalier 0.1.0), expected a whole number 1..1000"));
+  EXPECT_THAT(reading_error(replaced(text, "seconds = 0.1", "seconds = \"long\"")),
+              HasSubstr("budget.seconds: got 'long', expected a number above 0 (s)"));
+  EXPECT_THAT(reading_error(replaced(text, "format = 1", "format = 9")),
+              HasSubstr("run.toml:2: format: got 9 (written by espalier 0.1.0), expected 1"));
   EXPECT_THAT(reading_error("nonsense"), HasSubstr("run.toml:1"));
 }
 
@@ -111,6 +116,145 @@ TEST(FitRecord, OfEarlierVersionsHasNoBranchRounds) {
   EXPECT_FALSE(record.train_to_target);
 }
 
+// As the first version of the program wrote it, which had no kinds, stages, refinement or spaces, and took
+// all trees of a picture.
+constexpr const char* kFirstRecord =
+    R"(# Everything that repeats this run: espalier fit --repeat DIRECTORY --out OTHER
+format = 1
+model = "weber_penn"
+objective = "0.5*truncated_distance+0.5*iou"
+optimizer = "cma_es"
+seed = 7
+fit_seeds = 2
+
+[[views]]
+picture = "/pictures/fir.png"
+azimuth_deg = 0.0
+elevation_deg = 0.0
+perspective = false
+field_of_view_deg = 40.0
+
+[target]
+size_px = 128
+separation = "auto"
+tree_side = "dark"
+speck_px = -1
+fill_pinholes = false
+hash = "317f07db14e6c043"  # of the masks that were fitted
+
+[budget]  # 0: no limit
+evaluations = 300
+seconds = 0.0
+target_fitness = 0.0
+max_stems = 1500.0
+max_leaves = 6000.0
+
+[search]
+start = "auto"
+free = ["g_scale"]  # none: the default set of the model
+
+[search.fixed]
+"levels" = 2.0
+
+[optimizer_settings]
+
+[versions]
+"espalier" = "0.1.0"
+
+[outcome]
+evaluations = 300
+stopped_by = "evaluations"
+)";
+
+TEST(FitRecord, OfTheFirstVersionIsReadAsItWasMeant) {
+  const auto [record, outcome] = through_file(kFirstRecord);
+  EXPECT_EQ(record.seed, 7u);
+  EXPECT_EQ(record.kind, KindChoice::any);
+  EXPECT_FALSE(record.target.one_tree);
+  EXPECT_EQ(record.target.side, TreeSide::dark);
+  EXPECT_EQ(record.budget.branch_rounds, 0);
+  EXPECT_EQ(record.budget.finish_from, kLastShare);
+  EXPECT_EQ(record.stages, FitStages{});
+  EXPECT_EQ(record.growth.max_leaves, 6000);
+  EXPECT_FALSE(record.height_m);
+  EXPECT_EQ(record.search.fixed.at("levels"), 2);
+  ASSERT_TRUE(outcome);
+  EXPECT_EQ(outcome->stopped_by, FitStop::evaluations);
+}
+
+// But for its first line, as version 0.1 wrote it after its last change.
+constexpr const char* kWholeRecord = R"(# The record of a fit: everything that repeats it
+format = 1
+model = "weber_penn"
+objective = "iou"
+optimizer = "random_search"
+seed = -1
+fit_seeds = 3
+kind = "palm"
+train_to_target = true
+height_m = 12.34
+
+[[views]]
+picture = "/pictures/a \"tree\".png"
+azimuth_deg = 0.0
+elevation_deg = 0.0
+perspective = false
+field_of_view_deg = 40.0
+
+[[views]]
+picture = "/b.png"
+azimuth_deg = 90.0
+elevation_deg = -12.5
+perspective = true
+field_of_view_deg = 30.0
+
+[target]
+size_px = 128
+separation = "luminance"
+tree_side = "dark"
+speck_px = -1
+fill_pinholes = false
+one_tree = true  # of several, the largest; else all as one
+hash = "0123456789abcdef"  # of the masks that were fitted
+
+[budget]  # 0: no limit
+evaluations = 1234
+seconds = 0.1
+target_fitness = 0.75
+branch_rounds = 17  # after the search; -1: as many as time allows
+finish_from = 9  # round; -1: for the last 40 %
+max_stems = 100.0
+max_leaves = 100000.0
+
+[search]
+stages = "search,branches,finish"
+start = "palm"
+space = "species:2"  # searched first
+space_evaluations = 300
+free = ["g_scale", "curve*"]  # none: the default set of the model
+
+[search.fixed]
+"curve_v[1]" = -0.1
+"levels" = 3.0
+
+[optimizer_settings]
+
+[versions]
+"espalier" = "0.1.0"
+
+[outcome]
+evaluations = 77
+branch_rounds = 5
+finish_from = 3
+stopped_by = "time"
+)";
+
+TEST(FitRecord, IsWrittenAsEver) {
+  FitRecord record = full_record();
+  record.space = "species:2";
+  EXPECT_EQ(record_to_toml(record, FitOutcome{77, 5, 3, FitStop::time}), kWholeRecord);
+}
+
 TEST(FitRecord, RefusesRoundsWithoutEndAndUnknownKinds) {
   const std::string text = record_to_toml(full_record(), {});
   EXPECT_THAT(reading_error(replaced(text, "kind = \"palm\"", "kind = \"bush\"")),
@@ -118,9 +262,9 @@ TEST(FitRecord, RefusesRoundsWithoutEndAndUnknownKinds) {
   EXPECT_THAT(checking_error([](FitRecord& r) {
                 r.budget = {100, 0, 0, kWhileTimeLasts};
               }),
-              HasSubstr("without an end"));
+              HasSubstr("budget.branch_rounds: got rounds without an end"));
   EXPECT_THAT(checking_error([](FitRecord& r) { r.budget.branch_rounds = -2; }),
-              HasSubstr("--branch-rounds"));
+              HasSubstr("budget.branch_rounds: got -2, expected a whole number from 0, or 'time'"));
 }
 
 TEST(FitRecord, AcceptsAWholeRecord) {
@@ -132,16 +276,16 @@ TEST(FitRecord, NamesTheClosestOptimizer) {
 }
 
 TEST(FitRecord, RefusesWhatCannotRun) {
-  EXPECT_THAT(checking_error([](FitRecord& r) { r.views.clear(); }), HasSubstr("expected IMAGE"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.views.clear(); }), HasSubstr("views: got no picture"));
   EXPECT_THAT(checking_error([](FitRecord& r) { r.budget = {0, 0, 0}; }), HasSubstr("no budget"));
-  EXPECT_THAT(checking_error([](FitRecord& r) { r.budget.seconds = -1; }), HasSubstr("--seconds"));
-  EXPECT_THAT(checking_error([](FitRecord& r) { r.budget.seconds = NAN; }), HasSubstr("--seconds"));
-  EXPECT_THAT(checking_error([](FitRecord& r) { r.budget.target_fitness = 2; }),
-              HasSubstr("--target-fitness"));
-  EXPECT_THAT(checking_error([](FitRecord& r) { r.fit_seeds = 0; }), HasSubstr("--fit-seeds"));
-  EXPECT_THAT(checking_error([](FitRecord& r) { r.height_m = 0; }), HasSubstr("--height"));
-  EXPECT_THAT(checking_error([](FitRecord& r) { r.target.size_px = 8; }), HasSubstr("--size"));
-  EXPECT_THAT(checking_error([](FitRecord& r) { r.growth.max_stems = 0; }), HasSubstr("--max-stems"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.budget.seconds = -1; }), HasSubstr("budget.seconds"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.budget.seconds = NAN; }), HasSubstr("budget.seconds"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.budget.target_fitness = 2; }), HasSubstr("target_fitness"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.fit_seeds = 0; }), HasSubstr("fit_seeds: got 0"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.height_m = 0; }), HasSubstr("height_m: got 0"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.target.size_px = 8; }), HasSubstr("target.size_px: got 8"));
+  EXPECT_THAT(checking_error([](FitRecord& r) { r.growth.max_stems = 0; }),
+              HasSubstr("growth.max_stems: got 0"));
   EXPECT_THAT(checking_error([](FitRecord& r) { r.optimizer_settings["nope"] = 1; }), HasSubstr("nope"));
   EXPECT_THAT(checking_error([](FitRecord& r) { r.objective = "iuo"; }), HasSubstr("iou"));
 }

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include <espalier/core/field_error.h>
-#include <espalier/fitting/task/fit_stages.h>
+#include <espalier/fitting/record/fit_stages.h>
 
 namespace espalier {
 

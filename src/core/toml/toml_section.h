@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include <espalier/core/toml_file.h>
+#include <espalier/core/toml/toml_file.h>
 
 namespace espalier {
 

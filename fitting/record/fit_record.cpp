@@ -5,10 +5,10 @@
 
 #include <espalier/core/field_error.h>
 #include <espalier/core/parameter_table.h>
-#include <espalier/core/toml_section.h>
-#include <espalier/fitting/task/fit_options.h>
-#include <espalier/fitting/task/fit_record.h>
-#include <espalier/fitting/task/option_values.h>
+#include <espalier/core/toml/toml_section.h>
+#include <espalier/fitting/record/fit_options.h>
+#include <espalier/fitting/record/fit_record.h>
+#include <espalier/fitting/record/option_values.h>
 
 namespace espalier {
 

@@ -3,7 +3,7 @@
 #include <system_error>
 
 #include <espalier/core/error.h>
-#include <espalier/core/toml_file.h>
+#include <espalier/core/toml/toml_file.h>
 
 namespace espalier {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include <espalier/core/error.h>
-#include <espalier/fitting/task/search_space.h>
+#include <espalier/fitting/record/search_space.h>
 #include <espalier/models/models.h>
 
 namespace espalier {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <espalier/core/error.h>
-#include <espalier/fitting/task/fit_stages.h>
+#include <espalier/fitting/record/fit_stages.h>
 
 namespace espalier {
 namespace {

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <espalier/core/assignment.h>
 #include <espalier/core/field_error.h>
-#include <espalier/fitting/task/search_space.h>
+#include <espalier/fitting/record/search_space.h>
 
 namespace espalier {
 

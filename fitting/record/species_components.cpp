@@ -2,7 +2,7 @@
 #include <string_view>
 
 #include <espalier/core/field_error.h>
-#include <espalier/fitting/task/species_components.h>
+#include <espalier/fitting/record/species_components.h>
 
 namespace espalier {
 

@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include <espalier/fitting/task/fit_record.h>
+#include <espalier/fitting/record/fit_record.h>
 
 namespace espalier {
 

@@ -9,10 +9,10 @@
 
 #include <espalier/fitting/optimizers/optimizer.h>
 #include <espalier/fitting/picture/tree_kind.h>
-#include <espalier/fitting/task/fit_stages.h>
-#include <espalier/fitting/task/fit_stop.h>
-#include <espalier/fitting/task/search_space.h>
-#include <espalier/fitting/task/view_record.h>
+#include <espalier/fitting/record/fit_stages.h>
+#include <espalier/fitting/record/fit_stop.h>
+#include <espalier/fitting/record/search_space.h>
+#include <espalier/fitting/record/view_record.h>
 #include <espalier/image/reading/read_target.h>
 #include <espalier/plant/model.h>
 

@@ -2,7 +2,7 @@
 
 #include <espalier/core/error.h>
 #include <espalier/core/parameter_table.h>
-#include <espalier/core/toml_section.h>
+#include <espalier/core/toml/toml_section.h>
 
 namespace espalier {
 

@@ -5,8 +5,8 @@
 #include <espalier/core/assignment.h>
 #include <espalier/core/field_error.h>
 #include <espalier/fitting/optimizers/search_method.h>
-#include <espalier/fitting/task/fit_options.h>
-#include <espalier/fitting/task/species_components.h>
+#include <espalier/fitting/record/fit_options.h>
+#include <espalier/fitting/record/species_components.h>
 #include <espalier/image/measures/objective.h>
 #include <espalier/models/models.h>
 

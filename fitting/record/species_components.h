@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include <espalier/fitting/task/species_components.h>
+#include <espalier/fitting/record/species_components.h>
 
 namespace espalier {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <espalier/core/toml_section.h>
-#include <espalier/fitting/task/fit_options.h>
+#include <espalier/core/toml/toml_section.h>
+#include <espalier/fitting/record/fit_options.h>
 
 namespace espalier {
 

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include <espalier/core/error.h>
-#include <espalier/core/toml_file.h>
+#include <espalier/core/toml/toml_file.h>
 
 namespace espalier {
 namespace {

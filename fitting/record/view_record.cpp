@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include <espalier/core/field_error.h>
-#include <espalier/fitting/task/option_values.h>
-#include <espalier/fitting/task/view_record.h>
+#include <espalier/fitting/record/option_values.h>
+#include <espalier/fitting/record/view_record.h>
 
 namespace espalier {
 
