@@ -169,9 +169,8 @@ void check_new_directory(const fs::path& directory) {
     throw_input_error("{}: got {}, expected a directory to make", directory.string(),
                       error ? error.message() : "a file");
   if (fs::directory_iterator(directory, error) != fs::directory_iterator())
-    throw_input_error(
-        "{}: got a directory with files in it, expected a new one, or to resume the run in it",
-        directory.string());
+    throw_input_error("{}: got a directory with files in it, expected a new one, or to resume the run in it",
+                      directory.string());
   if (error)
     throw_input_error("{}: got '{}', expected a directory that can be read", directory.string(),
                       error.message());

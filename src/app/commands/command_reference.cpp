@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <espalier/app/commands/commands.h>
-#include <espalier/fitting/optimizers/optimizer.h>
 #include <espalier/app/options/fit_option_docs.h>
+#include <espalier/fitting/optimizers/optimizer.h>
 #include <espalier/image/measures/metric_table.h>
 #include <espalier/lsystem/strings/turtle_commands.h>
 

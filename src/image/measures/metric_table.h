@@ -69,7 +69,8 @@ struct Metric {
 
 /// In the order of columns and keys.
 inline constexpr Metric kMetrics[] = {
-    // pixel_difference is 1 - pixel_accuracy, whose inverse is the fitness of C. Hewitt's dissertation, 3.3.2.
+    // pixel_difference is 1 - pixel_accuracy, whose inverse is the fitness of C. Hewitt's
+    // dissertation, 3.3.2.
     {"pixel_accuracy", pixel_accuracy, Better::larger, true, "pixel_difference",
      "share of all pixels on which both agree"},
     {"iou", iou, Better::larger, true, nullptr, "intersection over union"},

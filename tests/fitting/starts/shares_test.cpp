@@ -7,13 +7,14 @@ namespace espalier {
 namespace {
 
 TEST(StageShares, OfTheSearchAreLessWhereTheBranchesAreSeenAndTraced) {
-  EXPECT_EQ(shares_of("leafless").search, 0.15);
-  for (const char* kind : {"leafy", "palm", "any"}) EXPECT_EQ(shares_of(kind).search, 0.4) << kind;
+  EXPECT_EQ(shares_of(KindChoice::leafless).search, 0.15);
+  for (const KindChoice kind : {KindChoice::leafy, KindChoice::palm, KindChoice::any})
+    EXPECT_EQ(shares_of(kind).search, 0.4) << name_of(kind);
 }
 
 TEST(StageShares, LeaveTheFinishTheLastTwoFifthsOfTheRefinement) {
-  for (const char* kind : {"leafless", "leafy", "palm", "any"})
-    EXPECT_EQ(shares_of(kind).before_finish, 0.6) << kind;
+  for (const KindChoice kind : {KindChoice::leafless, KindChoice::leafy, KindChoice::palm, KindChoice::any})
+    EXPECT_EQ(shares_of(kind).before_finish, 0.6) << name_of(kind);
 }
 
 }  // namespace

@@ -44,7 +44,9 @@ TEST(MetricTable, EachNameIsGivenOnceAndEveryRowHasHelpOfOneLine) {
   std::set<std::string> names;
   for (const Metric& metric : kMetrics) {
     EXPECT_TRUE(names.insert(metric.name).second) << metric.name;
-    if (metric.also_called) EXPECT_TRUE(names.insert(metric.also_called).second) << metric.also_called;
+    if (metric.also_called) {
+      EXPECT_TRUE(names.insert(metric.also_called).second) << metric.also_called;
+    }
     EXPECT_FALSE(std::string(metric.help).empty()) << metric.name;
     EXPECT_EQ(std::string(metric.help).find('\n'), std::string::npos) << metric.name;
   }
