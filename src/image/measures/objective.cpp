@@ -45,7 +45,7 @@ void check_name(const std::string& name, std::string_view objective) {
   if (metric)
     throw_input_error("objective '{}': got '{}', which is only reported, expected one of {}", objective, name,
                       fmt::join(known, ", "));
-  throw_input_error("objective '{}': no measure is named '{}', did you mean '{}'?", objective, name,
+  throw_input_error("objective '{}': got '{}', expected a measure, the closest is '{}'", objective, name,
                     closest_name(name, known));
 }
 

@@ -73,6 +73,8 @@ TEST(ReadExperiment, NamesFileLineAndWhatIsWrong) {
   EXPECT_THAT(error_of(kFits + "seeds = [-1]\n"), HasSubstr("study.toml:4"));
   EXPECT_THAT(error_of(kFits + "seeds = 0\n"), HasSubstr("study.toml:4"));
   EXPECT_THAT(error_of(kFits + "objectives = ['iuo']\n"), HasSubstr("study.toml:4"));
+  EXPECT_THAT(error_of(kFits + "optimizers = [{name = 'ga', population = 'many'}]\n"),
+              HasSubstr("study.toml:4: population: got 'many', expected a number"));
   EXPECT_THAT(error_of(kFits + "spaces = [{free = ['g_scal']}]\n"), HasSubstr("g_scale"));
   EXPECT_THAT(error_of(kFits + "view = 'front'\n"), HasSubstr("study.toml:4"));
   EXPECT_THAT(error_of(kFits + "size = 3\n"), HasSubstr("study.toml:4: size: got 3"));
@@ -136,7 +138,6 @@ TEST(ReadExperiment, EachListRefusesWhatNoRunCanUse) {
   const std::pair<const char*, const char*> bad_lists[] = {
       {"optimizers", "['gaa']"},
       {"optimizers", "[{name = 'ga', population = -1}]"},
-      {"optimizers", "[{name = 'ga', population = 'many'}]"},
       {"objectives", "['iuo']"},
       {"objectives", "'iou'"},
       {"spaces", "[{first = 'species:0'}]"},

@@ -200,7 +200,7 @@ TEST(Fit, RefusesASpeciesSpaceThatIsNone) {
   FitRecord record = small_record(10);
   for (const char* space : {"species", "species:", "species:0", "species:2x", "plane:2"}) {
     record.space = space;
-    EXPECT_THAT(error_of_fit(record, new_run("no_space")), HasSubstr("--space: got")) << space;
+    EXPECT_THAT(error_of_fit(record, new_run("no_space")), HasSubstr("space: got")) << space;
   }
   record.space = "species:99";
   EXPECT_THAT(error_of_fit(record, new_run("no_space")), HasSubstr("expected 1 … 18"));

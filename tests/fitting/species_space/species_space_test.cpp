@@ -129,7 +129,7 @@ TEST(SpeciesSpace, RefusesPresetsThatSpanNothing) {
   const Preset aspen = load_preset("quaking_aspen"), birch = load_preset("silver_birch");
   EXPECT_THAT(error_of({aspen}, 1), HasSubstr("got 1, expected at least 2"));
   EXPECT_THAT(error_of({aspen, aspen}, 1), HasSubstr("the same values"));
-  EXPECT_THAT(error_of({aspen, birch}, 2), HasSubstr("--components: got 2, expected 1 … 1"));
+  EXPECT_THAT(error_of({aspen, birch}, 2), HasSubstr("components: got 2, expected 1 … 1"));
   Preset other = birch;
   other.model = "lsystem";
   EXPECT_THAT(error_of({aspen, other}, 1), HasSubstr("expected one model"));
