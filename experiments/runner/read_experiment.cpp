@@ -17,7 +17,6 @@
 #include <espalier/fitting/record/species_components.h>
 #include <espalier/fitting/search/space_search.h>
 #include <espalier/fitting/starts/start_points.h>
-#include <espalier/image/measures/objective.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 
