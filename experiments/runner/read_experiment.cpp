@@ -17,7 +17,6 @@
 #include <espalier/fitting/record/species_components.h>
 #include <espalier/fitting/search/space_search.h>
 #include <espalier/fitting/starts/start_points.h>
-#include <espalier/image/measures/objective.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 
@@ -174,8 +173,11 @@ std::vector<std::string> read_objectives(const TomlSection& fits, const std::str
   filled_array(fits, "objectives");
   std::vector<std::string> objectives = fits.texts("objectives");
   std::replace(objectives.begin(), objectives.end(), std::string("fit"), std::string(kFitObjective));
-  for (const std::string& objective : objectives)
-    located(fits, "objectives", [&] { return parse_objective(objective); });
+  for (const std::string& objective : objectives) {
+    FitRecord record;
+    record.objective = objective;
+    located(fits, "objectives", [&] { check_option(*find_option("objective"), record); });
+  }
   return objectives;
 }
 

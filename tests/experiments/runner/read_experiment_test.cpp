@@ -65,6 +65,8 @@ TEST(ReadExperiment, NamesFileLineAndWhatIsWrong) {
   EXPECT_THAT(error_of(kFits + "optimisers = ['ga']\n"), HasSubstr("study.toml:4: optimisers"));
   EXPECT_THAT(error_of(kFits + "optimizers = ['ga',\n'gaa']\n"), HasSubstr("study.toml:5"));
   EXPECT_THAT(error_of(kFits + "optimizers = [{name = 'ga', populaton = 3}]\n"), HasSubstr("population"));
+  EXPECT_THAT(error_of(kFits + "optimizers = [{name = 'ga', population = 'many'}]\n"),
+              HasSubstr("study.toml:4: population: got 'many', expected a number"));
   EXPECT_THAT(error_of("[fits]\ntargets = ['fir',\n\n'furr']\n"),
               HasSubstr("study.toml:4: targets: got 'furr'"));
   EXPECT_THAT(error_of("[fits]\ntargets = []\n"), HasSubstr("study.toml:2: targets: got an array of 0"));
