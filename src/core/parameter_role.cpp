@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -51,8 +52,9 @@ static_assert(rows_follow_the_enum());
 const RoleInfo& info_of(Role role) { return kRoles[static_cast<std::size_t>(role) - 1]; }
 
 [[noreturn]] void refuse(std::string_view name) {
-  std::vector<std::string> known;
-  for (const RoleInfo& info : kRoles) known.emplace_back(info.name);
+  std::vector<std::string> known(kRoles.size());
+  std::transform(kRoles.begin(), kRoles.end(), known.begin(),
+                 [](const RoleInfo& info) { return std::string(info.name); });
   throw_input_error("got role '{}', expected one like '{}'", name, closest_name(name, known));
 }
 

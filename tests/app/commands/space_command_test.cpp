@@ -98,7 +98,7 @@ TEST(SpaceCommand, BadInputIsOneLine) {
       {"--grid 7x7 " + path_in("x.svg"), ".png"},
       {path_in("map.jpg"), ".png"},
       {"/nowhere/map.svg", "/nowhere"},
-      {"--space " + path_in("no_space.toml"), "parameters: got nothing"},
+      {"--space " + path_in("no_space.toml"), "'parameters': got nothing"},
       {"--space " + path_in("missing.toml"), "no such file"}};
   for (const auto& [arguments, message] : cases) {
     const ProgramRun run = run_espalier("space " + arguments);
