@@ -21,7 +21,7 @@ int main(int count, char** arguments) {
     record.seed = 1;
 
     // The options hold what it does not depend on.
-    FitOptions options;
+    FitExecution options;
     options.on_warning = [](const std::string& text) { fmt::print(stderr, "{}\n", text); };
     options.on_progress = [](const FitProgress& progress) {
       fmt::print(stderr, "{} evaluations, fitness {:.3f}\n", progress.evaluations, progress.best_fitness);

@@ -100,7 +100,7 @@ int main(int count, char** arguments) {
     record.views = {{arguments[1], {}}};
     record.budget = {.evaluations = std::stol(arguments[3]), .seconds = 0};
     const Fir fir;
-    FitOptions options;
+    FitExecution options;
     options.model = &fir;
     const FitResult result = fit(record, arguments[2], options);
     fmt::print("fitness {:.3f}", result.fitness);

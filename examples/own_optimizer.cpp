@@ -16,7 +16,7 @@ class Climber : public SearchMethod {
  public:
   std::string name() const override { return "climber"; }
   std::string help() const override { return "steps in random directions, ever shorter ones"; }
-  std::vector<SettingInfo> settings() const override {
+  std::vector<OptimizerSetting> settings() const override {
     return {{"step", 0.2, 0.001, 1, "the first step, as a share of each parameter's range"}};
   }
 
@@ -24,7 +24,7 @@ class Climber : public SearchMethod {
   /// All parameters are coordinates in [0, 1]. Evaluating ends the search by itself when the budget is used
   /// up.
   void search(Search& run) const override {
-    Draws draws(run.key);  // from the seed: the run repeats bit for bit
+    RandomStream draws(run.key);  // from the seed: the run repeats bit for bit
     RatedPoint best{random_point(run.evaluator.dimension(), draws)};
     if (!run.starts.empty()) best = run.starts.front();
     for (double step = run.setting("step"); step > 1e-4;) {
@@ -40,7 +40,7 @@ class Climber : public SearchMethod {
     }
   }
 
-  static std::vector<double> neighbours(const std::vector<double>& point, double step, Draws& draws) {
+  static std::vector<double> neighbours(const std::vector<double>& point, double step, RandomStream& draws) {
     std::vector<double> rows;
     for (int i = 0; i < 8; ++i)
       for (const double coordinate : point)
@@ -59,7 +59,7 @@ int main(int count, char** arguments) {
     record.budget = {.evaluations = std::stol(arguments[3]), .seconds = 0};
     record.optimizer_settings = {{"step", 0.1}};
     const Climber climber;
-    FitOptions options;
+    FitExecution options;
     options.optimizer = &climber;
     const FitResult result = fit(record, arguments[2], options);
     fmt::print("fitness {:.3f}, {} evaluations, stopped by {}\n", result.fitness, result.evaluations,

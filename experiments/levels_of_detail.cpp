@@ -10,8 +10,8 @@
 #include <cmath>
 
 #include <espalier/core/error.h>
-#include <espalier/fitting/certainty/rank_correlation.h>
-#include <espalier/fitting/optimizers/draws.h>
+#include <espalier/fitting/identifiability/rank_correlation.h>
+#include <espalier/fitting/optimizers/random_stream.h>
 #include <espalier/fitting/search/fit_objective.h>
 #include <espalier/fitting/task/plant_scorer.h>
 
@@ -70,7 +70,7 @@ Candidates noisy_starts(const SearchBeginning& beginning, Scorer& scorer) {
   const std::vector<StartPoint>& starts = beginning.starts;
   RememberingScorer remembering(scorer);
   for (std::uint64_t tried = 0; tried < 3000 && remembering.grown.size() < kOfEachKind; ++tried) {
-    Draws draws = draws_at(root_key(1), 0, tried);
+    RandomStream draws = random_stream_at(root_key(1), 0, tried);
     std::vector<double> point = beginning.space.encode(starts[draws.below(starts.size())].values);
     for (double& unit : point) unit = std::clamp(unit + kNoise * draws.normal(), 0.0, 1.0);
     ParameterValues values;

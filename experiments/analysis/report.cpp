@@ -25,12 +25,12 @@ using Tables = std::map<std::string, CsvTable>;
 constexpr std::size_t kMostThumbnails = 24;
 
 /// Its name is the directory's.
-ExperimentWords words_in(const fs::path& directory) {
+ExperimentMetadata metadata_in(const fs::path& directory) {
   const fs::path path = directory / "experiment.toml";
   if (!fs::is_regular_file(path))
     throw_input_error("{}: got no experiment.toml in it, expected the directory of an experiment",
                       directory.string());
-  ExperimentWords words = read_words(path);
+  ExperimentMetadata words = read_metadata(path);
   words.name = fs::absolute(path).lexically_normal().parent_path().filename();
   return words;
 }
@@ -122,7 +122,7 @@ std::string objective_in(const fs::path& directory) {
   return objectives.size() == 1 ? objectives[0] : "";
 }
 
-Json meta_of(const ExperimentWords& words, const ReportOptions& options) {
+Json meta_of(const ExperimentMetadata& words, const ReportOptions& options) {
   return {{"name", words.name},
           {"kind", words.kind},
           {"title", words.title},
@@ -139,7 +139,7 @@ Json meta_of(const ExperimentWords& words, const ReportOptions& options) {
 }  // namespace
 
 fs::path write_report(const fs::path& directory, const ReportOptions& options) {
-  const ExperimentWords words = words_in(directory);
+  const ExperimentMetadata words = metadata_in(directory);
   check_done(directory);
   const fs::path report = directory / "report";
   fs::remove_all(report);

@@ -74,7 +74,7 @@ struct GrowthDeclaration {
 };
 
 /// What an experiment says of itself.
-struct ExperimentWords {
+struct ExperimentMetadata {
   std::string name;  ///< of the file, without its suffix
   std::string kind;  ///< "fits", "pictures" or "growth"
   std::string title;
@@ -87,14 +87,14 @@ struct ExperimentWords {
 };
 
 struct Experiment {
-  ExperimentWords words;
+  ExperimentMetadata words;
   std::optional<FitsDeclaration> fits;  ///< one of these three
   std::optional<PicturesDeclaration> pictures;
   std::optional<GrowthDeclaration> growth;
 };
 
 /// Only the words: the files that the experiment names need not be there. Throws InputError.
-ExperimentWords read_words(const std::filesystem::path& path);
+ExperimentMetadata read_metadata(const std::filesystem::path& path);
 
 /// Reads and checks everything that can be checked before a run: names, ranges, files. Throws InputError with
 /// file, line, key, got and expected. settings: KEY=VALUE in TOML, each replaces a key of [fits], [pictures]

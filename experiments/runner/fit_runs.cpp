@@ -116,7 +116,7 @@ Measured measure(const FitResult& result, const FitCell& cell) {
 }
 
 std::optional<Measured> run_cell(const FitCell& cell, const fs::path& directory, const RunContext& context) {
-  FitOptions options;
+  FitExecution options;
   options.threads = cell.threads;
   options.resume = can_resume(directory, cell.record);
   options.stop_requested = context.stop_requested;

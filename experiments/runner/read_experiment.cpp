@@ -411,7 +411,7 @@ const std::vector<std::string> kKinds{"fits", "pictures", "growth"};
 /// A file and the words in it.
 struct Document {
   toml::table table;
-  ExperimentWords words;
+  ExperimentMetadata words;
 };
 
 /// Two numbers in [0, 1], the lower first; none where the key is missing.
@@ -460,7 +460,7 @@ std::string with_settings(const std::string& text, const std::string& source,
 
 Document read_document(const fs::path& path, const std::vector<std::string>& settings = {}) {
   Document document;
-  ExperimentWords& words = document.words;
+  ExperimentMetadata& words = document.words;
   words.text = with_settings(read_toml_text(path), path.string(), settings);
   document.table = parse_toml(words.text, path.string());
   const TomlSection root{document.table, path.string()};
@@ -480,7 +480,7 @@ Document read_document(const fs::path& path, const std::vector<std::string>& set
 
 }  // namespace
 
-ExperimentWords read_words(const fs::path& path) { return read_document(path).words; }
+ExperimentMetadata read_metadata(const fs::path& path) { return read_document(path).words; }
 
 TargetGroups read_groups(const fs::path& path) {
   const Document document = read_document(path);

@@ -17,10 +17,10 @@ BranchOffsets turned(BranchOffsets branch, int turn) {
 }  // namespace
 
 BranchOffsets BranchLayer::lay(const LineInPicture& line, const BranchPath& path, const Solution& tree,
-                               Draws& draws) {
+                               RandomStream& draws) {
   target_ = evenly_spaced(line.points, kLaying.points);
   outward_ = line.outward;
-  Solution one = only(path, tree);
+  Solution one = branch_alone(path, tree);
   BranchOffsets best{.path = path};
   double best_error = error_of(best, one);
   for (int turn = 0; turn < kLaying.first_turns; ++turn) try_one(turned(best, turn), one, best, best_error);
@@ -33,7 +33,7 @@ BranchOffsets BranchLayer::lay(const LineInPicture& line, const BranchPath& path
   return best;
 }
 
-BranchOffsets BranchLayer::mutated(BranchOffsets branch, double sigma, Draws& draws) const {
+BranchOffsets BranchLayer::mutated(BranchOffsets branch, double sigma, RandomStream& draws) const {
   if (reseeds_ && draws.chance(kLaying.reseeds)) branch.seed = 1 + draws.below(1'000'000);
   for (std::size_t i = 0; i + 1 < branch.at.size(); ++i)  // all but the radius
     if (draws.chance(kLaying.moves_each)) branch.at[i] = clamped(i, branch.at[i] + sigma * draws.normal());

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <espalier/fitting/branches/branch_offsets.h>
-#include <espalier/fitting/optimizers/draws.h>
+#include <espalier/fitting/optimizers/random_stream.h>
 #include <espalier/fitting/task/fit_task.h>
 #include <espalier/image/reading/medial_axes.h>
 
@@ -23,10 +23,11 @@ class BranchLayer {
   BranchLayer(const FitTask& task, bool reseeds) : task_(task), reseeds_(reseeds) {}
 
   /// The offsets with which the branch of this path of `tree` lies on the line.
-  BranchOffsets lay(const LineInPicture& line, const BranchPath& path, const Solution& tree, Draws& draws);
+  BranchOffsets lay(const LineInPicture& line, const BranchPath& path, const Solution& tree,
+                    RandomStream& draws);
 
  private:
-  BranchOffsets mutated(BranchOffsets branch, double sigma, Draws& draws) const;
+  BranchOffsets mutated(BranchOffsets branch, double sigma, RandomStream& draws) const;
   bool try_one(const BranchOffsets& branch, Solution& one, BranchOffsets& best, double& best_error);
   bool grow(const BranchOffsets& branch, Solution& one);
   double error_of(const BranchOffsets& branch, Solution& one);

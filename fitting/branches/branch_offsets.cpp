@@ -53,7 +53,7 @@ void write_offsets(const BranchOffsets& branch, Overrides& overrides) {
   set_or_drop(set, {Quantity::removed, Relation::value, 1, true}, branch.removed);
 }
 
-Solution only(const BranchPath& path, const Solution& solution) {
+Solution branch_alone(const BranchPath& path, const Solution& solution) {
   Solution one{solution.values, solution.plant_seed, {}, 1};
   for (const OverrideNode& node : solution.overrides.nodes) {
     const auto shared = static_cast<std::ptrdiff_t>(std::min(node.path.size(), path.size()));

@@ -48,6 +48,6 @@ void write_offsets(const BranchOffsets& branch, Overrides& overrides);
 bool removes(const OverrideNode& node);
 
 /// The solution as far as it concerns the branch: its own node, those above it and those below.
-Solution only(const BranchPath& path, const Solution& solution);
+Solution branch_alone(const BranchPath& path, const Solution& solution);
 
 }  // namespace espalier

@@ -8,7 +8,7 @@
 #include <espalier/fitting/branches/policy.h>
 #include <espalier/fitting/branches/reach_limit.h>
 #include <espalier/fitting/branches/step_size.h>
-#include <espalier/fitting/optimizers/draws.h>
+#include <espalier/fitting/optimizers/random_stream.h>
 #include <espalier/overrides/change_graph.h>
 
 namespace espalier {
@@ -129,7 +129,7 @@ class Refinement {
       join(fixed_, masks);
     }
     for (Branch& branch : branches_) {
-      Solution one = only(branch.path, solution_);
+      Solution one = branch_alone(branch.path, solution_);
       draw(branch, one);
     }
   }
@@ -177,7 +177,7 @@ class Refinement {
 
   int visit(Branch& branch) {
     const Masks rest = rest_of(branch);
-    Solution one = only(branch.path, solution_);
+    Solution one = branch_alone(branch.path, solution_);
     double best = score(rest, branch);
     for (int step = 0; step < settings_.steps_per_visit; ++step) {
       Branch candidate = mutated(branch);
@@ -210,7 +210,7 @@ class Refinement {
   Solution& solution_;
   Drawer drawer_;
   ReachLimit reach_limit_;
-  Draws draws_;
+  RandomStream draws_;
   std::vector<Branch> branches_;
   Masks fixed_, joined_;
 };

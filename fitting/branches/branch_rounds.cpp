@@ -15,7 +15,7 @@ namespace espalier {
 
 namespace {
 
-constexpr std::size_t kLanes = 2;
+constexpr std::size_t kCopies = 2;
 
 /// What is refined in one round, and by how many steps: a step on the trunk grows the whole tree.
 struct RoundKind {
@@ -60,36 +60,36 @@ RoundRow row_from_json(const nlohmann::json& json, const std::string& source) {
 }  // namespace
 
 const Solution& BranchRounds::best() const {
-  return *std::min_element(lanes.begin(), lanes.end(),
+  return *std::min_element(copies.begin(), copies.end(),
                            [](const Solution& a, const Solution& b) { return a.score < b.score; });
 }
 
 BranchRounds begin_branch_rounds(const FitTask& task, const std::vector<Solution>& starts,
                                  long search_evaluations) {
   BranchRounds state{.search_evaluations = search_evaluations};
-  for (std::size_t lane = 0; lane < kLanes; ++lane) state.lanes.push_back(starts[lane % starts.size()]);
+  for (std::size_t copy = 0; copy < kCopies; ++copy) state.copies.push_back(starts[copy % starts.size()]);
   rescore(task, state);
   return state;
 }
 
 void rescore(const FitTask& task, BranchRounds& state) {
-  for (Solution& lane : state.lanes) lane.score = score_of(task, lane);
+  for (Solution& copy : state.copies) copy.score = score_of(task, copy);
 }
 
 void refine_round(const FitTask& task, Seed seed, int threads, BranchRounds& state) {
   const RoundKind kind = kCycle[static_cast<std::size_t>(state.rounds) % kCycle.size()];
-  std::vector<long> steps(state.lanes.size(), 0);
+  std::vector<long> steps(state.copies.size(), 0);
   const RandomKey key = child_key(root_key(seed), static_cast<std::uint64_t>(state.rounds));
-  const auto refine_lane = [&](std::size_t lane) {
-    RefinementSettings settings{.order = kind.order, .steps = kind.steps, .key = child_key(key, lane)};
-    steps[lane] = refine_branches(task, settings, state.lanes[lane]);
+  const auto refine_copy = [&](std::size_t copy) {
+    RefinementSettings settings{.order = kind.order, .steps = kind.steps, .key = child_key(key, copy)};
+    steps[copy] = refine_branches(task, settings, state.copies[copy]);
   };
-  parallel_for(state.lanes.size(), refine_lane, threads);
+  parallel_for(state.copies.size(), refine_copy, threads);
   for (const long made : steps) state.steps += made;
   ++state.rounds;
   if (state.rounds % static_cast<long>(kCycle.size()) != 0) return;
   const Solution best = state.best();
-  for (Solution& lane : state.lanes) lane = best;
+  for (Solution& copy : state.copies) copy = best;
 }
 
 std::string branch_rounds_to_json(const BranchRounds& state, const std::string& model) {
@@ -99,11 +99,11 @@ std::string branch_rounds_to_json(const BranchRounds& state, const std::string& 
                                  {"steps", state.steps},
                                  {"search_evaluations", state.search_evaluations},
                                  {"search_limit", state.search_limit}};
-  for (const Solution& lane : state.lanes)
-    json["lanes"].push_back({{"values", lane.values},
-                             {"plant_seed", lane.plant_seed},
-                             {"score", lane.score},
-                             {"overrides", overrides_to_toml(lane.overrides)}});
+  for (const Solution& copy : state.copies)
+    json["lanes"].push_back({{"values", copy.values},
+                             {"plant_seed", copy.plant_seed},
+                             {"score", copy.score},
+                             {"overrides", overrides_to_toml(copy.overrides)}});
   for (const RoundRow& row : state.history) json["history"].push_back(row_to_json(row));
   return json.dump(1) + "\n";
 }
@@ -117,18 +117,18 @@ BranchRounds branch_rounds_from_json(const std::string& text, const std::string&
                        .search_evaluations = json.at("search_evaluations"),
                        .search_limit = json.at("search_limit")};
     for (const nlohmann::json& from : json.at("lanes")) {
-      Solution lane;
-      lane.values = from.at("values").get<ParameterValues>();
-      lane.plant_seed = from.at("plant_seed");
-      lane.score = from.at("score");
+      Solution copy;
+      copy.values = from.at("values").get<ParameterValues>();
+      copy.plant_seed = from.at("plant_seed");
+      copy.score = from.at("score");
       const toml::table overrides = parse_toml(from.at("overrides").get<std::string>(), source);
-      read_overrides({overrides, source}, lane.overrides);
-      state.lanes.push_back(std::move(lane));
+      read_overrides({overrides, source}, copy.overrides);
+      state.copies.push_back(std::move(copy));
     }
     if (json.contains("history"))
       for (const nlohmann::json& row : json.at("history"))
         state.history.push_back(row_from_json(row, source));
-    if (state.lanes.empty()) throw_input_error("{}: got no lanes, expected one or more", source);
+    if (state.copies.empty()) throw_input_error("{}: got no copies, expected one or more", source);
     return state;
   } catch (const nlohmann::json::exception& error) {
     throw_input_error("{}: got '{}', expected the state of a refinement", source, error.what());

@@ -1,5 +1,5 @@
 // Stages (d) and (e) of a fit, round by round: branches of several orders are refined in turn, low orders
-// most often, on several copies of the tree at once (lanes), each with its own draws; the best is the result.
+// most often, on several copies of the tree at once, each with its own draws; the best is the result.
 // A round is a pure function of the state before it, so a run that is stopped after any of them goes on with
 // the same bits, for any number of threads.
 #pragma once
@@ -24,10 +24,10 @@ struct RoundRow {
 };
 
 struct BranchRounds {
-  std::vector<Solution> lanes;
+  std::vector<Solution> copies;
   long rounds = 0;
   long finish_from = -1;          ///< round before which the finish began; -1: it has not
-  long steps = 0;                 ///< branches grown, drawn and scored, over all lanes
+  long steps = 0;                 ///< branches grown, drawn and scored, over all copies
   long search_evaluations = 0;    ///< of the search before them
   long search_limit = 0;          ///< that it was given: a search with another limit has another end
   std::vector<RoundRow> history;  ///< the first row is the state before the first round
@@ -35,14 +35,14 @@ struct BranchRounds {
   const Solution& best() const;
 };
 
-/// The lanes as another task scores them: one that looks at its pictures in another way.
+/// The copies as another task scores them: one that looks at its pictures in another way.
 void rescore(const FitTask& task, BranchRounds& state);
 
-/// Lanes that begin with the starts in turn.
+/// Copies that begin with the starts in turn.
 BranchRounds begin_branch_rounds(const FitTask& task, const std::vector<Solution>& starts,
                                  long search_evaluations);
 
-/// Makes one round on all lanes; after each round of all orders, all go on from the best.
+/// Makes one round on all copies; after each round of all orders, all go on from the best.
 void refine_round(const FitTask& task, Seed seed, int threads, BranchRounds& state);
 
 /// The state as text, and back. Throws InputError naming `source` where the text is no such state.

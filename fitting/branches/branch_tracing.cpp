@@ -76,7 +76,7 @@ class Tracer {
 
   void lay(std::size_t axis, const BranchPath& path) {
     constexpr double kWidthOfBase = 1.2;  // over the median of the lower third, which is what is known
-    Draws draws(child_key(key_, axis));
+    RandomStream draws(child_key(key_, axis));
     const LineInPicture line{axes_[axis].points, kWidthOfBase * axes_[axis].width_px,
                              path.size() == 1 ? 0 : kMostOutward * draws.uniform_signed()};
     write_offsets(layer_.lay(line, path, traced_, draws), traced_.overrides);

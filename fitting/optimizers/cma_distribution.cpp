@@ -67,7 +67,7 @@ CmaDistribution::CmaDistribution(const Eigen::VectorXd& mean, double sigma, std:
       B_(Eigen::MatrixXd::Identity(mean.size(), mean.size())),
       D_(Eigen::VectorXd::Ones(mean.size())) {}
 
-Eigen::VectorXd CmaDistribution::sample(Draws& draws) const {
+Eigen::VectorXd CmaDistribution::sample(RandomStream& draws) const {
   Eigen::VectorXd z(mean_.size());
   for (double& coordinate : z) coordinate = draws.normal();
   return mean_ + sigma_ * (B_ * D_.cwiseProduct(z));

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include <espalier/fitting/optimizers/draws.h>
+#include <espalier/fitting/optimizers/random_stream.h>
 
 namespace espalier {
 
@@ -30,7 +30,7 @@ class CmaDistribution {
   CmaDistribution(const Eigen::VectorXd& mean, double sigma, std::size_t lambda);
 
   /// A candidate: mean + sigma * B D z (eqs 38-40).
-  Eigen::VectorXd sample(Draws& draws) const;
+  Eigen::VectorXd sample(RandomStream& draws) const;
 
   /// candidates: the lambda sampled ones, best first. Updates all state (eqs 41-47).
   void update(std::span<const Eigen::VectorXd> candidates);

@@ -38,7 +38,7 @@ class FlatHistory {
 
 /// The start points one after the other, then again; a random point where there are none.
 Eigen::VectorXd first_mean(const Search& run, std::uint64_t restart) {
-  Draws draws = draws_at(run.key, restart, 0);
+  RandomStream draws = random_stream_at(run.key, restart, 0);
   const std::vector<double> point = run.starts.empty() ? random_point(run.evaluator.dimension(), draws)
                                                        : run.starts[restart % run.starts.size()].point;
   return Eigen::Map<const Eigen::VectorXd>(point.data(), static_cast<Eigen::Index>(point.size()));
@@ -48,7 +48,7 @@ std::vector<Eigen::VectorXd> sample_all(const CmaDistribution& cma, std::size_t 
                                         std::uint64_t generation) {
   std::vector<Eigen::VectorXd> candidates;
   for (std::size_t i = 0; i < lambda; ++i) {
-    Draws draws = draws_at(key, generation, i);
+    RandomStream draws = random_stream_at(key, generation, i);
     candidates.push_back(cma.sample(draws));
   }
   return candidates;
@@ -100,7 +100,7 @@ class CmaEs final : public SearchMethod {
   std::string help() const override {
     return "CMA-ES (Hansen, arXiv:1604.00772), mirrored at the bounds, restarts with growing population";
   }
-  std::vector<SettingInfo> settings() const override {
+  std::vector<OptimizerSetting> settings() const override {
     return {
         {"population", 0, 0, 65536, "candidates a generation; 0: 4 + floor(3 ln n); 1 counts as 2", true},
         {"sigma0", 0, 0, 1,

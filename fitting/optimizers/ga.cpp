@@ -26,7 +26,7 @@ Population first_population(Search& run, std::size_t starts, std::uint64_t gener
   Population population(run.count_setting("population"));
   starts = std::min({starts, run.starts.size(), population.size()});
   for (std::size_t i = 0; i < population.size(); ++i) {
-    Draws draws = draws_at(run.key, generation, i);
+    RandomStream draws = random_stream_at(run.key, generation, i);
     population[i].rates.chance = std::min(0.5, 1 / static_cast<double>(dimension));
     population[i].point = i < starts ? run.starts[i].point : random_point(dimension, draws);
     if (i < starts) population[i].value = run.starts[i].value;
@@ -37,7 +37,7 @@ Population first_population(Search& run, std::size_t starts, std::uint64_t gener
 
 enum class Crossover { sbx, uniform, either };
 
-void cross(Search& run, Draws& draws, Individual& a, Individual& b) {
+void cross(Search& run, RandomStream& draws, Individual& a, Individual& b) {
   if (!draws.chance(run.setting("crossover_chance"))) return;
   const auto kind = static_cast<Crossover>(run.count_setting("crossover"));
   const bool sbx = kind == Crossover::sbx || (kind == Crossover::either && draws.chance(0.5));
@@ -47,8 +47,8 @@ void cross(Search& run, Draws& draws, Individual& a, Individual& b) {
     uniform_crossover(draws, a.point, b.point);
 }
 
-void add_children(Search& run, const Population& parents, std::span<const std::size_t> rank, Draws& draws,
-                  Population& next) {
+void add_children(Search& run, const Population& parents, std::span<const std::size_t> rank,
+                  RandomStream& draws, Population& next) {
   const std::size_t size = run.count_setting("tournament");
   Individual a = parents[tournament(rank, size, draws)];
   Individual b = parents[tournament(rank, size, draws)];
@@ -68,7 +68,7 @@ Population next_generation(Search& run, const Population& parents, std::uint64_t
   for (std::size_t i = 0; i < parents.size(); ++i)
     if (rank[i] < elites) next[rank[i]] = parents[i];
   while (next.size() < parents.size()) {
-    Draws draws = draws_at(run.key, generation, next.size());
+    RandomStream draws = random_stream_at(run.key, generation, next.size());
     add_children(run, parents, rank, draws, next);
   }
   evaluate_from(run, next, elites);
@@ -87,7 +87,7 @@ class Ga final : public SearchMethod {
   std::string help() const override {
     return "genetic algorithm: tournament, SBX or uniform crossover, self-adapted polynomial mutation";
   }
-  std::vector<SettingInfo> settings() const override {
+  std::vector<OptimizerSetting> settings() const override {
     return {
         {"population", 30, 2, 65536, "individuals", true},
         {"tournament", 3, 1, 1000, "individuals a parent has to beat, itself counted", true},

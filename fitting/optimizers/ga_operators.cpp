@@ -7,7 +7,7 @@
 
 namespace espalier {
 
-void sbx_crossover(double eta, Draws& draws, std::span<double> a, std::span<double> b) {
+void sbx_crossover(double eta, RandomStream& draws, std::span<double> a, std::span<double> b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     const double u = draws.uniform();
     // Deb, Agrawal (1995), eq. 9: the spread factor with density 0.5 (eta + 1) beta^eta below 1.
@@ -20,7 +20,7 @@ void sbx_crossover(double eta, Draws& draws, std::span<double> a, std::span<doub
   }
 }
 
-void uniform_crossover(Draws& draws, std::span<double> a, std::span<double> b) {
+void uniform_crossover(RandomStream& draws, std::span<double> a, std::span<double> b) {
   for (std::size_t i = 0; i < a.size(); ++i)
     if (draws.chance(0.5)) std::swap(a[i], b[i]);
 }
@@ -36,13 +36,13 @@ double polynomial_step(double coordinate, double eta, double uniform) {
   return std::min(1.0, coordinate + 1 - std::pow(2 * (1 - uniform) + (2 * uniform - 1) * edge, power));
 }
 
-void polynomial_mutation(const MutationRates& rates, Draws& draws, std::span<double> point) {
+void polynomial_mutation(const MutationRates& rates, RandomStream& draws, std::span<double> point) {
   for (double& coordinate : point)
     if (draws.chance(rates.chance)) coordinate = polynomial_step(coordinate, rates.eta, draws.uniform());
 }
 
 MutationRates inherit_rates(const MutationRates& a, const MutationRates& b, std::size_t dimension,
-                            Draws& draws) {
+                            RandomStream& draws) {
   constexpr double kLearningRate = 0.22;  // Baeck (1992)
   const double chance = std::sqrt(a.chance * b.chance) * std::exp(kLearningRate * draws.normal());
   const double eta = std::sqrt(a.eta * b.eta) * std::exp(kLearningRate * draws.normal());
@@ -50,7 +50,7 @@ MutationRates inherit_rates(const MutationRates& a, const MutationRates& b, std:
   return {std::clamp(chance, least_chance, 0.5), std::clamp(eta, 2.0, 200.0)};
 }
 
-std::size_t tournament(std::span<const std::size_t> rank, std::size_t size, Draws& draws) {
+std::size_t tournament(std::span<const std::size_t> rank, std::size_t size, RandomStream& draws) {
   std::size_t winner = draws.below(rank.size());
   for (std::size_t i = 1; i < size; ++i) {
     const std::size_t rival = draws.below(rank.size());

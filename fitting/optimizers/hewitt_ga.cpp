@@ -15,7 +15,7 @@ double flip_sign(const Objective& objective, std::size_t index, double unit) {
   return value * objective.value_of(index, flipped) < 0 ? flipped : unit;
 }
 
-double step_in_proportion(const Objective& objective, const HewittNumbers& numbers, Draws& draws,
+double step_in_proportion(const Objective& objective, const HewittNumbers& numbers, RandomStream& draws,
                           std::size_t index, double unit) {
   const double value = objective.value_of(index, unit);
   const double share = draws.uniform_signed();
@@ -25,7 +25,7 @@ double step_in_proportion(const Objective& objective, const HewittNumbers& numbe
 
 }  // namespace
 
-void permute_one_parameter(const Objective& objective, const HewittNumbers& numbers, Draws& draws,
+void permute_one_parameter(const Objective& objective, const HewittNumbers& numbers, RandomStream& draws,
                            std::span<double> point) {
   const std::size_t index = draws.below(point.size());
   double& unit = point[index];
@@ -33,8 +33,9 @@ void permute_one_parameter(const Objective& objective, const HewittNumbers& numb
   if (draws.chance(numbers.flip_chance)) unit = flip_sign(objective, index, unit);
 }
 
-std::vector<double> merge_parents(const Objective& objective, const HewittNumbers& numbers, Draws& draws,
-                                  std::span<const double> fittest, std::span<const double> second) {
+std::vector<double> merge_parents(const Objective& objective, const HewittNumbers& numbers,
+                                  RandomStream& draws, std::span<const double> fittest,
+                                  std::span<const double> second) {
   std::vector<double> merged(fittest.begin(), fittest.end());
   for (std::size_t i = 0; i < merged.size(); ++i) {
     if (numbers.merge_mean) {
@@ -59,7 +60,7 @@ std::vector<double> permuted_copies(const Objective& objective, const HewittNumb
                                     std::span<const double> parent, RandomKey key, std::uint64_t generation) {
   std::vector<double> points;
   for (std::size_t i = 0; i < numbers.population; ++i) {
-    Draws draws = draws_at(key, generation, i);
+    RandomStream draws = random_stream_at(key, generation, i);
     points.insert(points.end(), parent.begin(), parent.end());
     permute_one_parameter(objective, numbers, draws, std::span(points).last(parent.size()));
   }
@@ -72,7 +73,7 @@ class HewittGa final : public SearchMethod {
   std::string help() const override {
     return "the genetic algorithm of Hewitt's dissertation (2017), section 3.3.2";
   }
-  std::vector<SettingInfo> settings() const override {
+  std::vector<OptimizerSetting> settings() const override {
     const HewittNumbers numbers;
     return {
         {"population", static_cast<double>(numbers.population), 2, 65536, "children a generation", true},
@@ -91,7 +92,7 @@ class HewittGa final : public SearchMethod {
     const Objective& objective = run.evaluator.objective();
     const HewittNumbers numbers = numbers_from(run);
     const std::size_t dimension = run.evaluator.dimension();
-    Draws first_draws = draws_at(run.key, 0, 0);
+    RandomStream first_draws = random_stream_at(run.key, 0, 0);
     std::vector<double> parent =
         run.starts.empty() ? random_point(dimension, first_draws) : run.starts[0].point;
     double accepted = run.starts.empty() ? kWorstValue : run.starts[0].value;
@@ -101,7 +102,7 @@ class HewittGa final : public SearchMethod {
       const auto order = ranked(values);
       if (numbers.elitist && values[order[0]] >= accepted) continue;
       accepted = values[order[0]];
-      Draws draws = draws_at(run.key, generation, numbers.population);
+      RandomStream draws = random_stream_at(run.key, generation, numbers.population);
       const auto row = [&](std::size_t i) { return std::span(points).subspan(i * dimension, dimension); };
       parent = merge_parents(objective, numbers, draws, row(order[0]), row(order[1]));
     }

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include <espalier/fitting/optimizers/draws.h>
 #include <espalier/fitting/optimizers/optimizer.h>
+#include <espalier/fitting/optimizers/random_stream.h>
 
 namespace espalier {
 
@@ -25,11 +25,12 @@ struct HewittNumbers {
 
 /// Changes one randomly chosen parameter of `point` (coordinates in the unit box). A sign flip happens only
 /// where the bounds hold the negated value's sign; results beyond the bounds are clamped to them.
-void permute_one_parameter(const Objective& objective, const HewittNumbers& numbers, Draws& draws,
+void permute_one_parameter(const Objective& objective, const HewittNumbers& numbers, RandomStream& draws,
                            std::span<double> point);
 
 /// The parameter list merged from the fittest and the second fittest.
-std::vector<double> merge_parents(const Objective& objective, const HewittNumbers& numbers, Draws& draws,
-                                  std::span<const double> fittest, std::span<const double> second);
+std::vector<double> merge_parents(const Objective& objective, const HewittNumbers& numbers,
+                                  RandomStream& draws, std::span<const double> fittest,
+                                  std::span<const double> second);
 
 }  // namespace espalier

@@ -100,7 +100,7 @@ NloptHandle configure(const NloptAlgorithm& row, const Search& run) {
 }
 
 /// Sobol's points are the same in every run; mirrored axes tell streams and restarts of MLSL apart.
-std::vector<bool> mirrored_axes(const NloptAlgorithm& row, std::size_t dimension, Draws& draws) {
+std::vector<bool> mirrored_axes(const NloptAlgorithm& row, std::size_t dimension, RandomStream& draws) {
   std::vector<bool> mirrored(dimension, false);
   if (row.algorithm == NLOPT_G_MLSL_LDS)
     for (std::size_t i = 0; i < dimension; ++i) mirrored[i] = draws.chance(0.5);
@@ -109,7 +109,7 @@ std::vector<bool> mirrored_axes(const NloptAlgorithm& row, std::size_t dimension
 
 /// One run of NLopt from `start`; its best point, or nothing where the search has ended.
 std::optional<RatedPoint> run_once(const NloptAlgorithm& row, const Search& run, const RatedPoint& start,
-                                   bool start_is_known, Draws& draws, StreamPort& port) {
+                                   bool start_is_known, RandomStream& draws, StreamPort& port) {
   const NloptHandle opt = configure(row, run);
   const std::size_t dimension = start.point.size();
   NloptCall call{port,
@@ -132,7 +132,7 @@ std::optional<RatedPoint> run_once(const NloptAlgorithm& row, const Search& run,
 }
 
 /// Where a stream goes on: at a random point, or near its best one.
-std::vector<double> restart_point(const Search& run, const RatedPoint& best, Draws& draws) {
+std::vector<double> restart_point(const Search& run, const RatedPoint& best, RandomStream& draws) {
   if (draws.chance(run.setting("restart_random"))) return random_point(best.point.size(), draws);
   std::vector<double> point = best.point;
   for (double& x : point) x = reflect_into_unit(x + run.setting("restart_radius") * draws.normal());
@@ -140,7 +140,7 @@ std::vector<double> restart_point(const Search& run, const RatedPoint& best, Dra
 }
 
 void run_stream(const NloptAlgorithm& row, const Search& run, std::size_t stream, StreamPort& port) {
-  Draws draws = draws_at(run.key, stream, 0);
+  RandomStream draws = random_stream_at(run.key, stream, 0);
   const bool given = stream < run.starts.size();
   RatedPoint best = given ? run.starts[stream] : RatedPoint{random_point(run.evaluator.dimension(), draws)};
   RatedPoint start = best;
@@ -148,18 +148,18 @@ void run_stream(const NloptAlgorithm& row, const Search& run, std::size_t stream
     const auto found = run_once(row, run, start, given && round == 1, draws, port);
     if (!found || row.kind == NloptKind::deterministic) return;
     if (found->value < best.value) best = *found;
-    draws = draws_at(run.key, stream, round);
+    draws = random_stream_at(run.key, stream, round);
     start.point = row.kind == NloptKind::local ? restart_point(run, best, draws)
                                                : random_point(best.point.size(), draws);
   }
 }
 
-std::vector<SettingInfo> local_step_settings() {
+std::vector<OptimizerSetting> local_step_settings() {
   return {{"initial_step", 0.2, 1e-6, 0.5, "first step of the local method, as a share of the box"},
           {"xtol", 1e-6, 1e-12, 0.1, "step at which a local method stops, as a share of the box"}};
 }
 
-std::vector<SettingInfo> restart_settings() {
+std::vector<OptimizerSetting> restart_settings() {
   return {
       {"restart_random", 0.5, 0, 1, "chance that a restart begins at a random point, else near the best"},
       {"restart_radius", 0.1, 0, 1, "standard deviation of a start near the best, as a share of the box"}};
@@ -175,9 +175,9 @@ class NloptOptimizer final : public SearchMethod {
   std::size_t max_dimension() const override { return row_.max_dimension; }
   bool uses_seed() const override { return row_.kind != NloptKind::deterministic; }
 
-  std::vector<SettingInfo> settings() const override {
-    std::vector<SettingInfo> all;
-    const auto add = [&](const std::vector<SettingInfo>& some) {
+  std::vector<OptimizerSetting> settings() const override {
+    std::vector<OptimizerSetting> all;
+    const auto add = [&](const std::vector<OptimizerSetting>& some) {
       all.insert(all.end(), some.begin(), some.end());
     };
     // A population needs its evaluations: see docs/optimizers.md for CRS2 with 1, 2 and 4 streams.

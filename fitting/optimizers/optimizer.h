@@ -70,7 +70,7 @@ struct MinimizeResult {
 /// ones.
 using OptimizerSettings = std::map<std::string, double>;
 
-struct SettingInfo {
+struct OptimizerSetting {
   std::string name;
   double default_value, lower, upper;
   std::string help;
@@ -82,7 +82,7 @@ class Optimizer {
   virtual ~Optimizer() = default;
   virtual std::string name() const = 0;
   virtual std::string help() const = 0;  ///< one line: method and source
-  virtual std::vector<SettingInfo> settings() const { return {}; }
+  virtual std::vector<OptimizerSetting> settings() const { return {}; }
   /// The dimensions the method can handle, both included; minimize throws InputError outside them.
   virtual std::size_t min_dimension() const { return 1; }
   virtual std::size_t max_dimension() const { return std::numeric_limits<std::size_t>::max(); }

@@ -10,7 +10,7 @@ class RandomSearch final : public SearchMethod {
  public:
   std::string name() const override { return "random_search"; }
   std::string help() const override { return "independent uniform points, the floor to beat"; }
-  std::vector<SettingInfo> settings() const override {
+  std::vector<OptimizerSetting> settings() const override {
     return {{"batch", 64, 1, 65536, "points evaluated together", true}};
   }
 
@@ -20,7 +20,7 @@ class RandomSearch final : public SearchMethod {
     std::vector<double> points(run.count_setting("batch") * dimension);
     for (std::uint64_t index = 0;;) {
       for (std::size_t begin = 0; begin < points.size(); begin += dimension) {
-        Draws draws(child_key(run.key, index++));  // by point: the batch size changes nothing
+        RandomStream draws(child_key(run.key, index++));  // by point: the batch size changes nothing
         for (std::size_t i = 0; i < dimension; ++i) points[begin + i] = draws.uniform();
       }
       run.evaluator.evaluate(points);

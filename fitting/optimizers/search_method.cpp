@@ -12,19 +12,19 @@ namespace espalier {
 
 namespace {
 
-const SettingInfo& find_setting(const std::string& optimizer, std::span<const SettingInfo> known,
-                                const std::string& name) {
-  for (const SettingInfo& info : known)
+const OptimizerSetting& find_setting(const std::string& optimizer, std::span<const OptimizerSetting> known,
+                                     const std::string& name) {
+  for (const OptimizerSetting& info : known)
     if (info.name == name) return info;
   if (known.empty())
     throw_input_error("{}: got setting {}, expected none: it has no settings", optimizer, name);
   std::vector<std::string> names;
-  for (const SettingInfo& info : known) names.push_back(info.name);
+  for (const OptimizerSetting& info : known) names.push_back(info.name);
   throw_input_error("{}: got unknown setting {}, expected one of: {}", optimizer, name,
                     fmt::join(names, ", "));
 }
 
-void check_setting(const std::string& optimizer, const SettingInfo& info, double value) {
+void check_setting(const std::string& optimizer, const OptimizerSetting& info, double value) {
   const bool whole_enough = !info.whole || value == std::floor(value);
   if (value >= info.lower && value <= info.upper && whole_enough) return;
   throw_input_error("{}: setting {}: got {}, expected a {}number from {} to {}", optimizer, info.name, value,
@@ -65,7 +65,7 @@ std::vector<RatedPoint> evaluate_starts(Evaluator& evaluator, std::span<const do
 MinimizeResult SearchMethod::minimize(const Objective& objective, const OptimizerSettings& settings,
                                       const Budget& budget, std::span<const double> start, Seed seed,
                                       Observer& observer) const {
-  const std::vector<SettingInfo> known = this->settings();
+  const std::vector<OptimizerSetting> known = this->settings();
   const OptimizerSettings complete = complete_settings(name(), known, settings);
   Evaluator evaluator(objective, budget, observer);
   check_dimension(*this, evaluator.dimension());
@@ -80,10 +80,10 @@ MinimizeResult SearchMethod::minimize(const Objective& objective, const Optimize
   return evaluator.result(StopReason::converged);
 }
 
-OptimizerSettings complete_settings(const std::string& optimizer, std::span<const SettingInfo> known,
+OptimizerSettings complete_settings(const std::string& optimizer, std::span<const OptimizerSetting> known,
                                     const OptimizerSettings& given) {
   OptimizerSettings complete;
-  for (const SettingInfo& info : known) complete[info.name] = info.default_value;
+  for (const OptimizerSetting& info : known) complete[info.name] = info.default_value;
   for (const auto& [name, value] : given) {
     check_setting(optimizer, find_setting(optimizer, known, name), value);
     complete[name] = value;
@@ -91,7 +91,7 @@ OptimizerSettings complete_settings(const std::string& optimizer, std::span<cons
   return complete;
 }
 
-std::vector<double> random_point(std::size_t dimension, Draws& draws) {
+std::vector<double> random_point(std::size_t dimension, RandomStream& draws) {
   std::vector<double> point(dimension);
   for (double& coordinate : point) coordinate = draws.uniform();
   return point;

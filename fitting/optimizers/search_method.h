@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include <espalier/fitting/optimizers/draws.h>
 #include <espalier/fitting/optimizers/evaluator.h>
 #include <espalier/fitting/optimizers/optimizer.h>
+#include <espalier/fitting/optimizers/random_stream.h>
 
 namespace espalier {
 
@@ -39,11 +39,11 @@ class SearchMethod : public Optimizer {
 
 /// `given` over the defaults of `known`. Throws InputError for unknown names, values out of range, NaN, and
 /// fractions where whole numbers are needed; `optimizer` opens the message.
-OptimizerSettings complete_settings(const std::string& optimizer, std::span<const SettingInfo> known,
+OptimizerSettings complete_settings(const std::string& optimizer, std::span<const OptimizerSetting> known,
                                     const OptimizerSettings& given);
 
 /// A uniformly random point of the unit box.
-std::vector<double> random_point(std::size_t dimension, Draws& draws);
+std::vector<double> random_point(std::size_t dimension, RandomStream& draws);
 
 /// Folds any finite coordinate back into [0, 1] by mirroring at the bounds.
 double reflect_into_unit(double coordinate);

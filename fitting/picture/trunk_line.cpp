@@ -9,12 +9,12 @@ namespace espalier {
 
 namespace {
 
-bool is_narrower(const Run& a, const Run& b) { return a.width() < b.width(); }
+bool is_narrower(const RowRun& a, const RowRun& b) { return a.width() < b.width(); }
 
 /// The run of the row that lies above `below`; none where there is no such run.
-std::optional<Run> run_above(const Mask& mask, int y, const Run& below) {
-  std::optional<Run> widest;
-  for (const Run& run : runs_of(mask, y)) {
+std::optional<RowRun> run_above(const Mask& mask, int y, const RowRun& below) {
+  std::optional<RowRun> widest;
+  for (const RowRun& run : runs_of(mask, y)) {
     if (run.touches(below) && (!widest || is_narrower(*widest, run))) widest = run;
   }
   return widest;
@@ -26,18 +26,18 @@ int lowest_row(const Mask& mask) {
   return y;
 }
 
-float median_width(std::vector<Run> runs) {
+float median_width(std::vector<RowRun> runs) {
   const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
   std::nth_element(runs.begin(), middle, runs.end(), is_narrower);
   return static_cast<float>(middle->width());
 }
 
 /// The bare trunk's runs from the foot up, until one is half as wide again as the trunk was so far.
-std::vector<Run> bare_trunk(const Mask& mask, int foot) {
+std::vector<RowRun> bare_trunk(const Mask& mask, int foot) {
   constexpr float kCrown = 1.5f;
-  std::vector<Run> trunk{widest_run(mask, foot)};
+  std::vector<RowRun> trunk{widest_run(mask, foot)};
   for (int y = foot - 1; y >= 0; --y) {
-    const std::optional<Run> run = run_above(mask, y, trunk.back());
+    const std::optional<RowRun> run = run_above(mask, y, trunk.back());
     if (!run || static_cast<float>(run->width()) > kCrown * median_width(trunk) + 1) break;
     trunk.push_back(*run);
   }
@@ -49,7 +49,7 @@ PixelPoint middle_of_largest_disc(Mask mask) {
   for (Mask eroded = erode_disc(mask, 1); area_px(eroded) > 0; eroded = erode_disc(mask, 1)) mask = eroded;
   double x_sum = 0, y_sum = 0;
   for (int y = 0; y < mask.height_px(); ++y)
-    for (const Run& run : runs_of(mask, y)) {
+    for (const RowRun& run : runs_of(mask, y)) {
       x_sum += static_cast<double>(run.middle()) * run.width();
       y_sum += (y + 0.5) * run.width();
     }
@@ -75,7 +75,7 @@ std::optional<TrunkLine> read_trunk_line(const Mask& mask) {
   constexpr std::size_t kFewestRows = 10;
   const int foot = lowest_row(mask);
   if (foot < 0) return std::nullopt;
-  const std::vector<Run> trunk = bare_trunk(mask, foot);
+  const std::vector<RowRun> trunk = bare_trunk(mask, foot);
   const int crown_end = foot + 1 - static_cast<int>(trunk.size());
   const Mask crown = rows_above(mask, crown_end);
   if (trunk.size() < kFewestRows || area_px(crown) == 0) return std::nullopt;

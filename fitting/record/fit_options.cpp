@@ -67,7 +67,7 @@ std::string help_of_objectives() {
   return fmt::format("weighted sum of measures to minimise: {}", fmt::join(objective_names(), ", "));
 }
 
-std::vector<FitOption> options_of_all() {
+std::vector<FitOption> options_of_the_task() {
   return {
       {.field = "model",
        .key = "model",
@@ -126,6 +126,11 @@ std::vector<FitOption> options_of_all() {
        .upper = 200,
        .help = "height of the tree, m (default: a nominal 10)",
        .before = std::monostate{}},
+  };
+}
+
+std::vector<FitOption> options_of_the_target() {
+  return {
       {.field = "views",
        .key = "views",
        .option = "views",
@@ -175,6 +180,11 @@ std::vector<FitOption> options_of_all() {
        .member = [](FitRecord& record) -> std::string& { return record.target_hash; },
        .help = "of the masks that were fitted: a run goes on with these alone",
        .note = "of the masks that were fitted"},
+  };
+}
+
+std::vector<FitOption> options_of_the_budget() {
+  return {
       {.field = "budget.evaluations",
        .key = "budget.evaluations",
        .option = "evaluations",
@@ -238,6 +248,11 @@ std::vector<FitOption> options_of_all() {
        .lower = 1,
        .upper = 1e7,
        .help = "leaves a candidate may have; for an L-system likewise"},
+  };
+}
+
+std::vector<FitOption> options_of_the_search() {
+  return {
       {.field = "stages",
        .key = "search.stages",
        .option = "stages",
@@ -297,6 +312,14 @@ std::vector<FitOption> options_of_all() {
        .help = "a setting of the method: name=value",
        .experiment_list = "optimizers"},
   };
+}
+
+std::vector<FitOption> options_of_all() {
+  std::vector<FitOption> options;
+  for (const auto part :
+       {options_of_the_task, options_of_the_target, options_of_the_budget, options_of_the_search})
+    for (FitOption& option : part()) options.push_back(std::move(option));
+  return options;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The record as it is kept: it names the model and the optimiser that the caller brought along.
-FitRecord record_of(const FitRecord& given, const FitOptions& options) {
+FitRecord record_of(const FitRecord& given, const FitExecution& options) {
   FitRecord record = given;
   if (options.model) record.model = options.model->table().model;
   if (options.optimizer) record.optimizer = options.optimizer->name();
@@ -23,7 +23,7 @@ FitRecord record_of(const FitRecord& given, const FitOptions& options) {
 }
 
 /// An optimiser that no table holds checks its settings itself, in check_searches.
-void check_given(const FitRecord& given, const FitOptions& options) {
+void check_given(const FitRecord& given, const FitExecution& options) {
   FitRecord record = given;
   if (options.optimizer) {
     record.optimizer = FitRecord{}.optimizer;
@@ -65,11 +65,11 @@ std::optional<SpeciesSpace> space_of(const FitRecord& record, const Model& model
 
 }  // namespace
 
-const Optimizer& optimizer_of(const FitRecord& record, const FitOptions& options) {
+const Optimizer& optimizer_of(const FitRecord& record, const FitExecution& options) {
   return options.optimizer ? *options.optimizer : optimizer_by_name(record.optimizer);
 }
 
-FitResult fit(const FitRecord& given, const fs::path& directory, const FitOptions& options) {
+FitResult fit(const FitRecord& given, const fs::path& directory, const FitExecution& options) {
   options.resume ? check_run_directory(directory) : check_new_directory(directory);
   check_given(given, options);
   FitRecord record = record_of(given, options);

@@ -21,7 +21,7 @@ struct FitProgress {
 };
 
 /// What a run needs besides its record, and what does not change its result.
-struct FitOptions {
+struct FitExecution {
   int threads = 0;                       ///< 0: one for each processor
   bool resume = false;                   ///< go on with the run in the directory
   const Model* model = nullptr;          ///< instead of the record's model by name; not owned
@@ -44,12 +44,12 @@ struct FitResult {
   std::string best_start;
   std::size_t dimension = 0;
   CandidateFailures failures = {};  ///< since the run began or was resumed
-  std::string certainty;            ///< in words; empty where it was not measured
+  std::string identifiability;      ///< in words; empty where it was not measured
 };
 
 /// Runs the fit. All input is checked before `directory` is made. Throws InputError, for the record, its
 /// files, a directory that holds anything (without resume), or a run whose target changed (with it).
 FitResult fit(const FitRecord& record, const std::filesystem::path& directory,
-              const FitOptions& options = {});
+              const FitExecution& options = {});
 
 }  // namespace espalier

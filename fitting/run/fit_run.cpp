@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <espalier/fitting/certainty/certainty_files.h>
+#include <espalier/fitting/identifiability/identifiability_files.h>
 #include <espalier/fitting/run/fit_run.h>
 
 namespace espalier {
@@ -15,7 +15,7 @@ constexpr double kRefreshSeconds = 3;   ///< the directory is at most this old, 
 constexpr double kRefreshShare = 0.02;  ///< of the time, at most, is spent writing the directory
 
 /// A search that refinement had followed ends where it ended then.
-long evaluation_limit(const FitRecord& record, const fs::path& directory, const FitOptions& options) {
+long evaluation_limit(const FitRecord& record, const fs::path& directory, const FitExecution& options) {
   const auto reached = reached_rounds(record, directory, options);
   return reached ? reached->search_evaluations : record.budget.evaluations;
 }
@@ -23,14 +23,14 @@ long evaluation_limit(const FitRecord& record, const fs::path& directory, const 
 }  // namespace
 
 std::optional<BranchRounds> reached_rounds(const FitRecord& record, const fs::path& directory,
-                                           const FitOptions& options) {
+                                           const FitExecution& options) {
   std::optional<BranchRounds> reached = options.resume ? read_branch_rounds(directory) : std::nullopt;
   if (reached && reached->search_limit != record.budget.evaluations) reached.reset();
   return reached;
 }
 
 FitRun::FitRun(const FitRecord& record, const FitTask& task, const FitPlan& plan, const fs::path& directory,
-               const FitOptions& options)
+               const FitExecution& options)
     : record_(record),
       threads_(options.threads > 0 ? options.threads : omp_get_num_procs()),
       task_(task),
@@ -54,7 +54,7 @@ double FitRun::seconds() const {
 bool FitRun::stop_requested() {
   if (state_.stopped_by) return true;
   const FitBudget& budget = record_.budget;
-  const bool refining = !state_.branches.lanes.empty();
+  const bool refining = !state_.branches.copies.empty();
   const double best_score = refining ? state_.best.score : scorer_.best().score;
   if (!refining && scorer_.limit_reached())
     state_.stopped_by = FitStop::evaluations;
@@ -71,7 +71,7 @@ bool FitRun::stop_requested() {
 
 void FitRun::refresh_directory() {
   const double began = seconds();
-  if (state_.branches.lanes.empty()) state_.best = scorer_.best();
+  if (state_.branches.copies.empty()) state_.best = scorer_.best();
   state_.evaluations = static_cast<long>(scorer_.evaluations());
   state_.seconds = began;
   state_.failures = plant_scorer_.failures();
@@ -87,7 +87,7 @@ void FitRun::refresh_directory_if_old() {
 
 void FitRun::report_progress() const {
   const FitBudget& budget = record_.budget;
-  const double score = state_.branches.lanes.empty() ? scorer_.best().score : state_.best.score;
+  const double score = state_.branches.copies.empty() ? scorer_.best().score : state_.best.score;
   FitProgress progress{scorer_.evaluations(), state_.branches.steps, seconds(), 1 - score, {}};
   if (budget.seconds > 0) progress.seconds_left = std::max(0.0, budget.seconds - progress.seconds);
   if (budget.evaluations > 0 && budget.branch_rounds == 0) {
@@ -107,9 +107,9 @@ MaskMetrics FitRun::untrained_metrics() {
 }
 
 FitResult FitRun::finish() {
-  if (state_.branches.lanes.empty()) state_.best = scorer_.best();
+  if (state_.branches.copies.empty()) state_.best = scorer_.best();
   if (task_.growth.train) state_.metrics_untrained = untrained_metrics();
-  if (!state_.branches.lanes.empty())
+  if (!state_.branches.copies.empty())
     state_.full_size = look_at_full_size(record_, task_, sized_tasks_, state_.branches.best());
   refresh_directory();
   const auto best_start =
@@ -128,19 +128,20 @@ FitResult FitRun::finish() {
           .best_start = best_start->name,
           .dimension = dimension_,
           .failures = state_.failures,
-          .certainty = state_.archive ? certainty_in_words(state_.certainty, *state_.archive) : ""};
+          .identifiability =
+              state_.archive ? identifiability_in_words(state_.identifiability, *state_.archive) : ""};
 }
 
 FitResult FitRun::run(const std::optional<SpeciesSpace>& species) {
   std::vector<StartPoint> starts = plan_.starts;
   std::vector<double> scores = score_starts(starts);
-  plant_scorer_.forgive_failures();
+  plant_scorer_.score_failures_as_worst();
   if (species) search_species(*species, starts, scores);
   if (record_.stages.search)
     search(starts, scores);
   else
     begin_from_best(starts, scores);
-  measure_how_sure();
+  measure_identifiability();
   if (will_refine()) refine();
   return finish();
 }

@@ -24,16 +24,16 @@ inline constexpr long kUnlimited = 1'000'000'000;
 
 /// The refinement that a run to be resumed had begun, unless its search is now to go further.
 std::optional<BranchRounds> reached_rounds(const FitRecord& record, const std::filesystem::path& directory,
-                                           const FitOptions& options);
+                                           const FitExecution& options);
 
 /// The one that the caller brought along, or the record's by name.
-const Optimizer& optimizer_of(const FitRecord& record, const FitOptions& options);
+const Optimizer& optimizer_of(const FitRecord& record, const FitExecution& options);
 
 /// One run: its state, its clock, and when it stops.
 class FitRun : public Observer {
  public:
   FitRun(const FitRecord& record, const FitTask& task, const FitPlan& plan,
-         const std::filesystem::path& directory, const FitOptions& options);
+         const std::filesystem::path& directory, const FitExecution& options);
 
   FitResult run(const std::optional<SpeciesSpace>& species);
   bool stop_requested() override;
@@ -57,7 +57,7 @@ class FitRun : public Observer {
   void search(const std::vector<StartPoint>& starts, const std::vector<double>& scores);
   void begin_from_best(const std::vector<StartPoint>& starts, const std::vector<double>& scores);
   bool search_time_is_over() const;
-  void measure_how_sure();
+  void measure_identifiability();
 
   // fit_run_refinement.cpp
   bool will_refine() const;
@@ -76,7 +76,7 @@ class FitRun : public Observer {
   const FitPlan& plan_;
   SizedTasks sized_tasks_;
   std::filesystem::path directory_;
-  const FitOptions& options_;
+  const FitExecution& options_;
   RunState state_;
   EvaluationLog log_;
   PlantScorer plant_scorer_;

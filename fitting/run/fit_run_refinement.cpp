@@ -45,7 +45,7 @@ void FitRun::refine_by_rounds() {
   }
 }
 
-/// From here on lanes are scored at both sizes.
+/// From here on copies are scored at both sizes.
 void FitRun::begin_finish() {
   finer_task_ = with_finer_views(record_, task_, sized_tasks_);
   state_.branches.finish_from = state_.branches.rounds;

@@ -10,15 +10,15 @@ namespace espalier {
 
 namespace {
 
-constexpr std::size_t kStartBatch = 8;  ///< start points scored between two looks at the clock
-constexpr std::size_t kMostStarts = 3;  ///< of the best, given to the optimiser
-constexpr long kCertaintyShare = 10;    ///< one evaluation to so many of the search tells how sure it is
+constexpr std::size_t kStartBatch = 8;      ///< start points scored between two looks at the clock
+constexpr std::size_t kMostStarts = 3;      ///< of the best, given to the optimiser
+constexpr long kIdentifiabilityShare = 10;  ///< one evaluation to so many of the search tells how sure it is
 
 }  // namespace
 
 /// Where refinement follows for as long as time lasts.
 bool FitRun::search_time_is_over() const {
-  return record_.budget.branch_rounds == kWhileTimeLasts && will_refine() && state_.branches.lanes.empty() &&
+  return record_.budget.branch_rounds == kWhileTimeLasts && will_refine() && state_.branches.copies.empty() &&
          record_.stages.search && seconds() >= plan_.shares.search * record_.budget.seconds;
 }
 
@@ -109,10 +109,10 @@ void FitRun::begin_from_best(const std::vector<StartPoint>& starts, const std::v
 }
 
 /// From the search alone, so that it comes out the same when the run is resumed.
-void FitRun::measure_how_sure() {
+void FitRun::measure_identifiability() {
   if (!state_.archive || state_.stopped_by == FitStop::interrupted) return;
-  state_.certainty = measure_certainty(*state_.archive, plant_scorer_,
-                                       scorer_.evaluations() / kCertaintyShare, record_.seed);
+  state_.identifiability = measure_identifiability(
+      *state_.archive, plant_scorer_, scorer_.evaluations() / kIdentifiabilityShare, record_.seed);
 }
 
 }  // namespace espalier

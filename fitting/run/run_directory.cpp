@@ -4,7 +4,7 @@
 
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
-#include <espalier/fitting/certainty/certainty_files.h>
+#include <espalier/fitting/identifiability/identifiability_files.h>
 #include <espalier/fitting/run/run_directory.h>
 #include <espalier/image/measures/metrics_json.h>
 #include <espalier/image/pictures/picture.h>
@@ -137,13 +137,13 @@ nlohmann::ordered_json archive_to_json(const SolutionArchive& archive) {
   return rows;
 }
 
-nlohmann::ordered_json certainty_to_json(const CertaintyReport& report) {
+nlohmann::ordered_json identifiability_to_json(const IdentifiabilityReport& report) {
   nlohmann::ordered_json json = {{"tolerance", report.tolerance}, {"evaluations", report.evaluations}};
-  for (const Certainty certainty :
-       {Certainty::determined, Certainty::partly, Certainty::open, Certainty::no_effect}) {
-    auto& names = json[certainty_name(certainty)] = nlohmann::ordered_json::array();
-    for (const ParameterCertainty& row : report.parameters)
-      if (row.certainty == certainty) names.push_back(row.parameter.name);
+  for (const Identifiability identifiability : {Identifiability::determined, Identifiability::partly,
+                                                Identifiability::open, Identifiability::no_effect}) {
+    auto& names = json[identifiability_name(identifiability)] = nlohmann::ordered_json::array();
+    for (const ParameterIdentifiability& row : report.parameters)
+      if (row.identifiability == identifiability) names.push_back(row.parameter.name);
   }
   return json;
 }
@@ -151,7 +151,7 @@ nlohmann::ordered_json certainty_to_json(const CertaintyReport& report) {
 }  // namespace
 
 const Overrides& best_overrides(const RunState& state) {
-  return state.branches.lanes.empty() ? state.task.overrides : state.branches.best().overrides;
+  return state.branches.copies.empty() ? state.task.overrides : state.branches.best().overrides;
 }
 
 std::optional<BranchRounds> read_branch_rounds(const fs::path& directory) {
@@ -200,12 +200,12 @@ void write_run_directory(const fs::path& directory, RunState& state) {
   write_best_pictures(directory, state);
   if (state.full_size) write_full_size(directory, *state.full_size);
   write_file_atomically(directory / "best.toml", best_to_toml(state));
-  if (!state.branches.lanes.empty())
+  if (!state.branches.copies.empty())
     write_file_atomically(directory / kBranchesFile,
                           branch_rounds_to_json(state.branches, state.record.model));
   write_history(directory, state);
   write_archive(directory, state);
-  if (state.archive) write_certainty(directory, state.certainty, *state.archive);
+  if (state.archive) write_identifiability(directory, state.identifiability, *state.archive);
   write_file_atomically(directory / "summary.json", run_summary(state));
   write_file_atomically(directory / "run.toml", record_to_toml(state.record, outcome_of(state)));
 }
@@ -242,7 +242,8 @@ std::string run_summary(const RunState& state) {
   for (const ViewRecord& view : state.record.views) summary["pictures"].push_back(view.picture.string());
   if (!state.task.warnings.empty()) summary["warnings"] = state.task.warnings;
   if (state.archive) summary["archive"] = archive_to_json(*state.archive);
-  if (!state.certainty.parameters.empty()) summary["parameters"] = certainty_to_json(state.certainty);
+  if (!state.identifiability.parameters.empty())
+    summary["parameters"] = identifiability_to_json(state.identifiability);
   for (const ScoredStart& start : state.starts)
     summary["starts"].push_back({{"name", start.name}, {"fitness", start.fitness}});
   return summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

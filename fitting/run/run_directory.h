@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <espalier/fitting/branches/branch_rounds.h>
-#include <espalier/fitting/certainty/certainty.h>
+#include <espalier/fitting/identifiability/identifiability.h>
 #include <espalier/fitting/record/fit_record.h>
 #include <espalier/fitting/run/full_size.h>
 #include <espalier/fitting/search/logged_scorer.h>
@@ -31,7 +31,7 @@ struct RunState {
   BestCandidate best = {};
   MaskMetrics best_metrics = {};
   Trace trace = {};
-  BranchRounds branches = {};                         ///< of the refinement; no lanes before it begins
+  BranchRounds branches = {};                         ///< of the refinement; no copies before it begins
   KindChoice kind = KindChoice::any;                  ///< of the tree, as it was read off the picture
   std::optional<MaskMetrics> metrics_untrained = {};  ///< of the same tree grown without the envelope
   std::optional<FullSize> full_size = {};             ///< once branches are refined
@@ -41,7 +41,7 @@ struct RunState {
   std::size_t embree_disagreement_px = 0;
   CandidateFailures failures = {};              ///< since the run began or was resumed
   std::optional<SolutionArchive> archive = {};  ///< of the search of the parameters, once it begins
-  CertaintyReport certainty = {};               ///< after it
+  IdentifiabilityReport identifiability = {};   ///< after it
 };
 
 /// What the branches of the best tree are overridden by.

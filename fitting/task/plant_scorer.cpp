@@ -51,7 +51,7 @@ bool PlantScorer::note_failure(std::span<const std::exception_ptr> errors) {
   const auto failed = std::find_if(errors.begin(), errors.end(),
                                    [](const std::exception_ptr& error) { return error != nullptr; });
   if (failed == errors.end()) return false;
-  if (!forgives_) std::rethrow_exception(*failed);
+  if (!scores_failures_) std::rethrow_exception(*failed);
   try {
     std::rethrow_exception(*failed);
   } catch (const InputError& error) {

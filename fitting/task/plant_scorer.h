@@ -30,7 +30,7 @@ class PlantScorer : public Scorer {
 
   /// From now on a candidate that the model refuses with an InputError scores kFailedCandidate instead of
   /// throwing: an L-system's expressions may have no value there.
-  void forgive_failures() { forgives_ = true; }
+  void score_failures_as_worst() { scores_failures_ = true; }
   const CandidateFailures& failures() const { return failures_; }
 
  private:
@@ -48,7 +48,7 @@ class PlantScorer : public Scorer {
   const FitTask& task_;
   std::vector<Worker> workers_;
   std::vector<double> scores_by_seed_;
-  bool forgives_ = false;
+  bool scores_failures_ = false;
   CandidateFailures failures_;
 };
 

@@ -19,9 +19,6 @@ Assignment parse_assignment(const std::string& text);
 /// A finite number in decimal digits: "3", "-.5", "1e-3". Nothing for other texts, such as "0x3" and "nan".
 std::optional<double> parse_decimal(std::string_view text);
 
-/// Finite, whole where it must be, and inside the bounds.
-bool is_valid_value(const ParameterInfo& row, double value);
-
 /// A number, or the name of one of the row's choices; inside of its bounds. Throws InputError.
 double parse_parameter_value(const ParameterInfo& row, const std::string& text);
 

@@ -80,6 +80,9 @@ double in_own_units(const ParameterTable& table, double length_m, const Paramete
 /// What a message expects of a value: "a whole number 1..40", "one of off, on (or 0..1)".
 std::string describe_valid_values(const ParameterInfo& row);
 
+/// Finite, whole where it must be, and inside the bounds.
+bool is_valid_value(const ParameterInfo& row, double value);
+
 /// Throws InputError unless `value` is finite, whole where it must be, and inside the bounds.
 /// `where` opens the message: a file and line, or the command-line option.
 void check_value(const ParameterInfo& row, double value, std::string_view where);

@@ -78,7 +78,7 @@ class Growth {
   }
 
   Offspring offspring(const GrowingStem& stem);
-  bool takes(const GrowingStem& stem);
+  bool supports(const GrowingStem& stem);
   std::size_t batch_size(std::size_t index);
   void begin_stem(const GrowingStem& stem);
   void grow_stem(const GrowingStem& stem);
@@ -166,12 +166,12 @@ class Growth::StemGrowth : public StemVisitor {
 Offspring Growth::offspring(const GrowingStem& stem) {
   if (stem.level + 1 >= p_.level_count()) {
     if (p_.leaf_blos_num == 0 || !is_shown(stem)) return {};
-    return {.leaves = true, .batch = uses_vectors_ && LeafBatch::takes(stem, p_) ? &leaf_batch_ : nullptr};
+    return {.leaves = true, .batch = uses_vectors_ && LeafBatch::supports(stem, p_) ? &leaf_batch_ : nullptr};
   }
   if (settings_.only_part && settings_.only_part->alone && is_shown(stem)) return {};
   const bool are_changed = stem.cursor.changes_below() || !is_shown(stem);
   const bool are_trained = settings_.train && settings_.prune_to;
-  const bool in_batches = uses_vectors_ && !are_changed && !are_trained && TwigBatch::takes(stem, p_);
+  const bool in_batches = uses_vectors_ && !are_changed && !are_trained && TwigBatch::supports(stem, p_);
   return {.stems = true, .are_changed = are_changed, .batch = in_batches ? &twig_batch_ : nullptr};
 }
 
@@ -209,11 +209,11 @@ void Growth::grow_stems(std::span<const GrowingStem> stems) {
 
 /// Whether the stem grows in a batch, with all that is on it: not where an override changes it or what it
 /// bears.
-bool Growth::takes(const GrowingStem& stem) {
+bool Growth::supports(const GrowingStem& stem) {
   const Offspring of = offspring(stem);
   const bool is_plain = !of.leaves && !of.stems;
   return uses_vectors_ && (is_plain || of.batch != nullptr) && is_shown(stem) &&
-         !stem.cursor.changes_below() && stem.extra_curve.is_none() && StemBatch::takes(stem.level, p_) &&
+         !stem.cursor.changes_below() && stem.extra_curve.is_none() && StemBatch::supports(stem.level, p_) &&
          has_plain_knots(stem.level, p_);
 }
 
@@ -221,7 +221,7 @@ bool Growth::takes(const GrowingStem& stem) {
 std::size_t Growth::batch_size(std::size_t index) {
   const std::size_t most = std::min<std::size_t>(StemBatch::kMostStems, level_.size() - index);
   std::size_t count = 0;
-  while (count < most && takes(level_[index + count])) ++count;
+  while (count < most && supports(level_[index + count])) ++count;
   return count;
 }
 

@@ -154,14 +154,14 @@ void print_result(const FitResult& result, const FitRecord& record, const fs::pa
                result.failures.count, result.failures.first);
   if (result.branch_steps > 0)
     fmt::print("{} branches refined in {} steps\n", result.overrides.nodes.size(), result.branch_steps);
-  if (!result.certainty.empty()) fmt::print("{}\n", result.certainty);
+  if (!result.identifiability.empty()) fmt::print("{}\n", result.identifiability);
   fmt::print("files: {} (best.toml, best.png, overlay.png, convergence.png, summary.json)\n",
              directory.string());
 }
 
 void run_fit(const FitArguments& arguments) {
   ProgressLine line(arguments.quiet, 5);
-  FitOptions options;
+  FitExecution options;
   options.threads = arguments.threads;
   options.resume = !arguments.resume.empty();
   options.stop_requested = is_interrupted;

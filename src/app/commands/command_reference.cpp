@@ -66,7 +66,7 @@ std::string optimizers_as_markdown() {
       "|---|---|---|\n";
   for (const auto& optimizer : all_optimizers()) {
     std::vector<std::string> settings;
-    for (const SettingInfo& setting : optimizer->settings())
+    for (const OptimizerSetting& setting : optimizer->settings())
       settings.push_back(fmt::format("`{}` {}", setting.name, setting.default_value));
     text +=
         fmt::format("| `{}` | {} | {} |\n", optimizer->name(), optimizer->help(), fmt::join(settings, ", "));

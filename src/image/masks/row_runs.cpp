@@ -4,8 +4,8 @@
 
 namespace espalier {
 
-std::vector<Run> runs_of(const Mask& mask, int y) {
-  std::vector<Run> runs;
+std::vector<RowRun> runs_of(const Mask& mask, int y) {
+  std::vector<RowRun> runs;
   for (int x = 0; x < mask.width_px(); ++x) {
     if (!mask.get(x, y)) continue;
     if (runs.empty() || runs.back().last != x - 1) runs.push_back({x, x - 1});
@@ -14,17 +14,17 @@ std::vector<Run> runs_of(const Mask& mask, int y) {
   return runs;
 }
 
-Run widest_run(const Mask& mask, int y) {
-  const std::vector<Run> runs = runs_of(mask, y);
-  const auto widest = std::max_element(runs.begin(), runs.end(),
-                                       [](const Run& a, const Run& b) { return a.width() < b.width(); });
-  return widest == runs.end() ? Run{} : *widest;
+RowRun widest_run(const Mask& mask, int y) {
+  const std::vector<RowRun> runs = runs_of(mask, y);
+  const auto widest = std::max_element(
+      runs.begin(), runs.end(), [](const RowRun& a, const RowRun& b) { return a.width() < b.width(); });
+  return widest == runs.end() ? RowRun{} : *widest;
 }
 
 int extent_px(const Mask& mask, int first, int end) {
   int left = mask.width_px(), right = 0;
   for (int y = first; y < end; ++y)
-    for (const Run& run : runs_of(mask, y)) {
+    for (const RowRun& run : runs_of(mask, y)) {
       left = std::min(left, run.first);
       right = std::max(right, run.last + 1);
     }

@@ -11,12 +11,12 @@ namespace espalier {
 namespace {
 
 /// A run of set pixels of one row: x in [begin, end).
-struct Run {
+struct LabelledRun {
   int y, begin, end;
 };
 
-std::vector<Run> find_runs(const Mask& mask) {
-  std::vector<Run> runs;
+std::vector<LabelledRun> find_runs(const Mask& mask) {
+  std::vector<LabelledRun> runs;
   for (int y = 0; y < mask.height_px(); ++y)
     for (int x = 0; x < mask.width_px(); ++x) {
       if (!mask.get(x, y)) continue;
@@ -46,11 +46,11 @@ class RunSets {
 };
 
 /// Joins each run with those of the row above that touch it; `slack` is 1 where corners touch.
-RunSets join_touching(const std::vector<Run>& runs, int slack) {
+RunSets join_touching(const std::vector<LabelledRun>& runs, int slack) {
   RunSets sets(runs.size());
   std::size_t above = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Run& run = runs[i];
+    const LabelledRun& run = runs[i];
     while (above < i && (runs[above].y < run.y - 1 ||
                          (runs[above].y == run.y - 1 && runs[above].end + slack <= run.begin)))
       ++above;
@@ -73,7 +73,7 @@ Mask both(Mask a, const Mask& b) {
 }  // namespace
 
 Mask large_pieces(const Mask& mask, std::size_t min_area_px, Connectivity connectivity) {
-  const std::vector<Run> runs = find_runs(mask);
+  const std::vector<LabelledRun> runs = find_runs(mask);
   RunSets sets = join_touching(runs, connectivity == Connectivity::eight ? 1 : 0);
   std::vector<std::size_t> area_px(runs.size(), 0);
   for (std::size_t i = 0; i < runs.size(); ++i)
@@ -87,17 +87,17 @@ Mask large_pieces(const Mask& mask, std::size_t min_area_px, Connectivity connec
 }
 
 std::vector<Mask> separate_pieces(const Mask& mask, std::size_t min_area_px, Connectivity connectivity) {
-  const std::vector<Run> runs = find_runs(mask);
+  const std::vector<LabelledRun> runs = find_runs(mask);
   RunSets sets = join_touching(runs, connectivity == Connectivity::eight ? 1 : 0);
-  std::map<std::size_t, std::vector<Run>> runs_of;
+  std::map<std::size_t, std::vector<LabelledRun>> runs_of;
   for (std::size_t i = 0; i < runs.size(); ++i) runs_of[sets.find(i)].push_back(runs[i]);
   std::vector<Mask> pieces;
   for (const auto& [set, members] : runs_of) {
     std::size_t area = 0;
-    for (const Run& run : members) area += static_cast<std::size_t>(run.end - run.begin);
+    for (const LabelledRun& run : members) area += static_cast<std::size_t>(run.end - run.begin);
     if (area < min_area_px) continue;
     pieces.emplace_back(mask.width_px(), mask.height_px());
-    for (const Run& run : members)
+    for (const LabelledRun& run : members)
       for (int x = run.begin; x < run.end; ++x) pieces.back().set(x, run.y);
   }
   std::stable_sort(pieces.begin(), pieces.end(),

@@ -15,19 +15,19 @@ constexpr double kFlare = 2.2;         ///< roots that spread wider, in trunks, 
 constexpr double kFoot = 0.2;          ///< of the trunk's width: thinner ones are twigs
 
 /// The run that joins feet of the row below it, and them alone.
-std::optional<Run> joint_above(const Mask& mask, int y) {
-  const std::vector<Run> feet = runs_of(mask, y), above = runs_of(mask, y - 1);
+std::optional<RowRun> joint_above(const Mask& mask, int y) {
+  const std::vector<RowRun> feet = runs_of(mask, y), above = runs_of(mask, y - 1);
   if (feet.size() < 2 || above.size() != 1) return std::nullopt;
-  const auto joined = std::ranges::count_if(feet, [&](const Run& foot) { return foot.touches(above[0]); });
+  const auto joined = std::ranges::count_if(feet, [&](const RowRun& foot) { return foot.touches(above[0]); });
   return joined > 1 ? std::optional(above[0]) : std::nullopt;
 }
 
 /// The narrowest run from this one up, as long as one run follows another.
-Run narrowest_above(const Mask& mask, Run run, int y, int end_row) {
-  Run narrowest = run;
+RowRun narrowest_above(const Mask& mask, RowRun run, int y, int end_row) {
+  RowRun narrowest = run;
   for (--y; y >= end_row; --y) {
-    Run next;
-    for (const Run& above : runs_of(mask, y))
+    RowRun next;
+    for (const RowRun& above : runs_of(mask, y))
       if (above.touches(run) && above.width() > next.width()) next = above;
     if (next.width() == 0) break;
     run = next;
@@ -38,7 +38,7 @@ Run narrowest_above(const Mask& mask, Run run, int y, int end_row) {
 
 /// Whether there are at least two feet at the fork.
 bool has_feet(const Mask& mask, const Roots& roots) {
-  return std::ranges::count_if(runs_of(mask, roots.fork_row), [&](const Run& foot) {
+  return std::ranges::count_if(runs_of(mask, roots.fork_row), [&](const RowRun& foot) {
            return foot.width() >= kFoot * roots.trunk.width();
          }) > 1;
 }
@@ -56,7 +56,7 @@ std::optional<Roots> roots_of(const Mask& mask_with_holes, const MaskBox& box) {
   const Mask mask = fill_holes(mask_with_holes);  // between roots the background shows
   const int highest = std::max(box.top + 1, box.bottom - box.rows(kHighestFork));
   for (int y = highest; y < box.bottom - box.rows(kLowestFork); ++y) {
-    const std::optional<Run> joint = joint_above(mask, y);
+    const std::optional<RowRun> joint = joint_above(mask, y);
     if (!joint) continue;
     const int end_row = std::max(box.top, y - box.rows(kTrunk));
     const Roots roots{y, narrowest_above(mask, *joint, y - 1, end_row), extent_px(mask, y, box.bottom)};

@@ -11,7 +11,7 @@ namespace espalier {
 
 struct Roots {
   int fork_row = 0;  ///< the highest row of separate feet; above it they are one trunk
-  Run trunk;         ///< where it is narrowest, a little above
+  RowRun trunk;      ///< where it is narrowest, a little above
   int width_px = 0;  ///< of the feet and what is between them
 };
 

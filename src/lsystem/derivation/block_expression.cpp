@@ -27,7 +27,7 @@ std::vector<std::string> names_in(std::string_view text) {
 }
 
 /// A name that is nothing would be nil, and an error only once it is used: better said when the file is read.
-void check_names(const Expression& expression, std::span<const std::string> columns, Workshop& workshop) {
+void check_names(const Expression& expression, std::span<const std::string> columns, RuleContext& shared) {
   static const std::set<std::string, std::less<>> kKnown{"and", "or", "not", "true", "false", "nil", "step"};
   // Quotes, tables and functions inside an expression are left to Lua.
   if (expression.text.find_first_of("\"'{[") != std::string::npos ||
@@ -35,7 +35,7 @@ void check_names(const Expression& expression, std::span<const std::string> colu
     return;
   for (const std::string& name : names_in(expression.text)) {
     if (kKnown.contains(name) || std::find(columns.begin(), columns.end(), name) != columns.end()) continue;
-    if (!workshop.lua.has_global(name))
+    if (!shared.lua.has_global(name))
       throw_at(expression.position,
                "'{}': got the unknown name '{}', expected a parameter, a constant or a function",
                expression.text, name);
@@ -45,26 +45,26 @@ void check_names(const Expression& expression, std::span<const std::string> colu
 }  // namespace
 
 BlockExpression::BlockExpression(const Expression& expression, std::span<const std::string> columns,
-                                 bool is_condition, Workshop& workshop)
+                                 bool is_condition, RuleContext& shared)
     : source_(&expression) {
-  workshop.lua.check_expression(expression.text, expression.position);
-  check_names(expression, columns, workshop);
+  shared.lua.check_expression(expression.text, expression.position);
+  check_names(expression, columns, shared);
   try {
-    program_ = compile_program(expression.text, columns, workshop.grammar.names, workshop.random_sites);
+    program_ = compile_program(expression.text, columns, shared.grammar.names, shared.random_sites);
   } catch (const InputError& error) {
     throw_at(expression.position, "'{}': {}", expression.text, error.what());
   }
   if (program_ && program_->is_condition != is_condition) program_.reset();
-  if (!program_) function_ = workshop.functions.compile(expression, columns, is_condition);
+  if (!program_) function_ = shared.functions.compile(expression, columns, is_condition);
 }
 
 Column BlockExpression::compute(std::span<const Column> columns, const RandomKey* keys, std::size_t count,
-                                Workshop& workshop) {
+                                RuleContext& shared) {
   if (program_)
-    return run_program(*program_, {columns, workshop.globals.data(), keys, count, &workshop.surroundings},
+    return run_program(*program_, {columns, shared.globals.data(), keys, count, &shared.surroundings},
                        scratch_);
   scratch_.resize(kBlockSize);
-  workshop.functions.evaluate(function_, columns, keys, count, scratch_.data());
+  shared.functions.evaluate(function_, columns, keys, count, scratch_.data());
   return {scratch_.data(), 1};
 }
 

@@ -29,10 +29,10 @@ bool is_constant(const Grammar& grammar, std::string_view name) {
 }  // namespace
 
 Derivation::Derivation(const Grammar& grammar, const Limits& limits)
-    : workshop_(grammar, limits), limits_(limits) {
+    : shared_(grammar, limits), limits_(limits) {
   const auto& names = grammar.names.globals;
-  workshop_.functions.set_max_modules(limits.modules);
-  workshop_.globals.assign(names.size(), 0);
+  shared_.functions.set_max_modules(limits.modules);
+  shared_.globals.assign(names.size(), 0);
   if (const auto fraction = std::find(names.begin(), names.end(), "fraction");
       fraction != names.end() && !is_constant(grammar, "fraction"))
     fraction_global_ = static_cast<std::size_t>(fraction - names.begin());
@@ -43,36 +43,36 @@ Derivation::Derivation(const Grammar& grammar, const Limits& limits)
         static_cast<std::size_t>(std::find(names.begin(), names.end(), constant.name) - names.begin());
     value.parameter = constant.parameter;
     if (!constant.parameter)
-      value.value.emplace(constant.value, std::span<const std::string>(), false, workshop_);
+      value.value.emplace(constant.value, std::span<const std::string>(), false, shared_);
     constants_.push_back(std::move(value));
   }
   for (const Setting& setting : grammar.settings) {
     setting_values_.push_back({&setting, {}});
     for (const Expression& value : setting.values)
-      setting_values_.back().values.emplace_back(value, std::span<const std::string>(), false, workshop_);
+      setting_values_.back().values.emplace_back(value, std::span<const std::string>(), false, shared_);
   }
   for (const ProductionTable& table : grammar.tables)
-    table_conditions_.emplace_back(table.condition, std::span<const std::string>(), true, workshop_);
-  surroundings_.emplace(workshop_);
-  productions_.emplace(grammar.productions, workshop_, limits);
-  interpretations_.emplace(grammar.interpretations, workshop_, limits);
-  axiom_ = axiom_production(grammar, workshop_.alphabet.intern("axiom", 0));
-  axiom_rewriter_.emplace(axiom_, workshop_, limits);
+    table_conditions_.emplace_back(table.condition, std::span<const std::string>(), true, shared_);
+  surroundings_.emplace(shared_);
+  productions_.emplace(grammar.productions, shared_, limits);
+  interpretations_.emplace(grammar.interpretations, shared_, limits);
+  axiom_ = axiom_production(grammar, shared_.alphabet.intern("axiom", 0));
+  axiom_rewriter_.emplace(axiom_, shared_, limits);
 }
 
 /// Variables of the code get their first values again, so that no derivation sees what the one before did.
 /// Constants are zero until then.
 void Derivation::run_lua_code() {
-  workshop_.lua.seal(false);
-  for (const std::string& name : workshop_.grammar.names.globals) workshop_.lua.set_global(name, 0);
-  name_surroundings(workshop_.lua, workshop_.grammar.names);
-  for (const LuaCode& code : workshop_.grammar.lua) workshop_.lua.run(code.text, code.label);
-  workshop_.lua.seal(true);
+  shared_.lua.seal(false);
+  for (const std::string& name : shared_.grammar.names.globals) shared_.lua.set_global(name, 0);
+  name_surroundings(shared_.lua, shared_.grammar.names);
+  for (const LuaCode& code : shared_.grammar.lua) shared_.lua.run(code.text, code.label);
+  shared_.lua.seal(true);
 }
 
 void Derivation::set_limits(const Limits& limits) {
   limits_ = limits;
-  workshop_.functions.set_max_modules(limits.modules);
+  shared_.functions.set_max_modules(limits.modules);
   for (auto* rewriter : {&productions_, &interpretations_, &axiom_rewriter_}) (*rewriter)->set_limits(limits);
 }
 
@@ -80,7 +80,7 @@ double Derivation::evaluate(BlockExpression& expression) {
   const Position& position = expression.source().position;
   const RandomKey key = child_key(root_key(seed_), ~std::uint64_t{0});
   try {
-    const Column column = expression.compute({}, &key, 1, workshop_);
+    const Column column = expression.compute({}, &key, 1, shared_);
     if (!BlockExpression::first_not_finite(column, 1)) return column[0];
   } catch (const InputError& error) {
     throw_at(position, "'{}': {}", expression.source().text, error.what());
@@ -89,15 +89,15 @@ double Derivation::evaluate(BlockExpression& expression) {
 }
 
 void Derivation::set_global(std::size_t global, double value) {
-  workshop_.globals[global] = value;
-  workshop_.lua.set_global(workshop_.grammar.names.globals[global], value);
+  shared_.globals[global] = value;
+  shared_.lua.set_global(shared_.grammar.names.globals[global], value);
 }
 
 void Derivation::evaluate_settings() {
   settings_ = {};
-  settings_.appearance = workshop_.grammar.appearance;
+  settings_.appearance = shared_.grammar.appearance;
   for (SettingValue& entry : setting_values_) {
-    const SettingInfo& info = *find_setting(entry.setting->name);
+    const NotationSetting& info = *find_setting(entry.setting->name);
     SettingValues values{};
     for (std::size_t i = 0; i < entry.values.size(); ++i) {
       values[i] = evaluate(entry.values[i]);
@@ -110,14 +110,14 @@ void Derivation::evaluate_settings() {
 }
 
 void Derivation::start(std::span<const double> parameters, Seed seed) {
-  ESPALIER_CHECK_EQ(parameters.size(), workshop_.grammar.parameters.rows.size());
+  ESPALIER_CHECK_EQ(parameters.size(), shared_.grammar.parameters.rows.size());
   seed_ = seed;
   step_ = 0;
   has_ended_ = false;
   modules_written_ = 0;
-  workshop_.lua.reset_instructions();
+  shared_.lua.reset_instructions();
   run_lua_code();
-  set_global(workshop_.globals.size() - 1, 0);
+  set_global(shared_.globals.size() - 1, 0);
   surroundings_->clear();
   const auto value_of = [&](BlockExpression& expression) { return evaluate(expression); };
   for (std::size_t i = 0; i < constants_.size(); ++i) {
@@ -127,14 +127,14 @@ void Derivation::start(std::span<const double> parameters, Seed seed) {
                constant.parameter ? parameters[*constant.parameter] : evaluate(*constant.value));
   }
   surroundings_->make_after(constants_.size(), value_of);
-  workshop_.lua.call_hook("on_start", {});
+  shared_.lua.call_hook("on_start", {});
   evaluate_settings();
   write_axiom();
 }
 
 void Derivation::write_axiom() {
   string_.clear();
-  string_.symbols.push_back(workshop_.alphabet.intern("axiom", 0));
+  string_.symbols.push_back(shared_.alphabet.intern("axiom", 0));
   axiom_rewriter_->rewrite(string_, child_key(root_key(seed_), 0), {}, next_);
   finish_step();
 }
@@ -144,18 +144,18 @@ void Derivation::finish_step() {
   modules_written_ += string_.size();
   cut_branches();
   fill_queries();
-  if (workshop_.grammar.uses_light) update_light();
+  if (shared_.grammar.uses_light) update_light();
 }
 
 void Derivation::step() {
   if (step_ >= limits_.steps)
-    throw_input_error("{}: got step {}, expected at most {} (a limit that can be set)",
-                      workshop_.grammar.name, step_ + 1, limits_.steps);
+    throw_input_error("{}: got step {}, expected at most {} (a limit that can be set)", shared_.grammar.name,
+                      step_ + 1, limits_.steps);
   ++step_;
   const double number = step_;
-  set_global(workshop_.globals.size() - 1, number);
+  set_global(shared_.globals.size() - 1, number);
   if (fraction_global_) set_global(*fraction_global_, 0);
-  workshop_.lua.call_hook("on_step", std::span(&number, 1));
+  shared_.lua.call_hook("on_step", std::span(&number, 1));
   std::vector<bool> table_is_on;
   for (BlockExpression& condition : table_conditions_) table_is_on.push_back(evaluate(condition) != 0);
   productions_->rewrite(string_, child_key(root_key(seed_), static_cast<std::uint64_t>(step_)), table_is_on,
@@ -165,19 +165,19 @@ void Derivation::step() {
 
 void Derivation::run(int steps) {
   while (step_ < steps) step();
-  if (!has_ended_) workshop_.lua.call_hook("on_end", {});
+  if (!has_ended_) shared_.lua.call_hook("on_end", {});
   has_ended_ = true;
 }
 
 /// Everything from a % to the end of its branch goes [Topiary §2].
 void Derivation::cut_branches() {
-  const SymbolId cut = workshop_.alphabet.intern("%", 0);
-  const SymbolId open = workshop_.alphabet.intern("[", 0), close = workshop_.alphabet.intern("]", 0);
+  const SymbolId cut = shared_.alphabet.intern("%", 0);
+  const SymbolId open = shared_.alphabet.intern("[", 0), close = shared_.alphabet.intern("]", 0);
   SymbolId* const begin = string_.symbols.data();
   SymbolId* const end = begin + string_.size();
   SymbolId* symbol = std::find(begin, end, cut);
   if (symbol == end) return;
-  const auto& arities = workshop_.alphabet.arities();
+  const auto& arities = shared_.alphabet.arities();
   SymbolId* kept = begin;
   double *value = string_.values.data(), *kept_value = value;
   int cut_depth = 0;  // of branches inside the one that is being cut; 0 where nothing is
@@ -209,21 +209,21 @@ const ModuleString& Derivation::interpreted(double fraction) {
 }
 
 VolumePtr Derivation::volume(const std::string& name) const {
-  const auto& names = workshop_.grammar.names.volumes;
+  const auto& names = shared_.grammar.names.volumes;
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    throw_input_error("{}: got volume '{}', expected {}", workshop_.grammar.name, name,
+    throw_input_error("{}: got volume '{}', expected {}", shared_.grammar.name, name,
                       names.empty() ? "none: the L-system declares no volumes"
                                     : fmt::format("one of: {}", fmt::join(names, ", ")));
-  return workshop_.surroundings.volumes[static_cast<std::size_t>(found - names.begin())];
+  return shared_.surroundings.volumes[static_cast<std::size_t>(found - names.begin())];
 }
 
 Vec3 Derivation::towards_sun() const {
-  if (!workshop_.grammar.has_sun) return {0, 0, 1};
-  const auto& names = workshop_.grammar.names.globals;
+  if (!shared_.grammar.has_sun) return {0, 0, 1};
+  const auto& names = shared_.grammar.names.globals;
   const auto of = [&](const char* name) {
     return static_cast<float>(
-        workshop_
+        shared_
             .globals[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())]);
   };
   return {of("sun_x"), of("sun_y"), of("sun_z")};
@@ -233,14 +233,14 @@ Vec3 Derivation::towards_sun() const {
 void Derivation::update_light() {
   constexpr double kGap = 0.3;  // of a segment
   shading_plant_.clear();
-  build_plant(interpreted(), workshop_.alphabet, settings_, shading_plant_);
-  workshop_.surroundings.set_light(shading_plant_, settings_.unit_m, towards_sun(), kGap * settings_.length,
-                                   workshop_.grammar.shades);
+  build_plant(interpreted(), shared_.alphabet, settings_, shading_plant_);
+  shared_.surroundings.set_light(shading_plant_, settings_.unit_m, towards_sun(), kGap * settings_.length,
+                                 shared_.grammar.shades);
 }
 
 void Derivation::fill_queries() {
-  if (!has_queries(workshop_.alphabet)) return;
-  espalier::lsystem::fill_queries(interpreted(), string_, workshop_.alphabet, settings_);
+  if (!has_queries(shared_.alphabet)) return;
+  espalier::lsystem::fill_queries(interpreted(), string_, shared_.alphabet, settings_);
 }
 
 }  // namespace espalier::lsystem

@@ -27,7 +27,7 @@ class Derivation {
   }
   /// Back to the axiom. `parameters` follow grammar.parameters.
   void start(std::span<const double> parameters, Seed seed);
-  void start(Seed seed) { start(workshop_.grammar.parameters.defaults(), seed); }
+  void start(Seed seed) { start(shared_.grammar.parameters.defaults(), seed); }
   /// One derivation step. Throws InputError where it fails, with the production and the module.
   void step();
   /// Steps until step_number() is `steps`; calls on_end() of the file's Lua code after the last one.
@@ -35,8 +35,8 @@ class Derivation {
 
   int step_number() const { return step_; }
   const ModuleString& string() const { return string_; }
-  std::string text() const { return to_text(string_, workshop_.alphabet); }
-  const SymbolTable& alphabet() const { return workshop_.alphabet; }
+  std::string text() const { return to_text(string_, shared_.alphabet); }
+  const SymbolTable& alphabet() const { return shared_.alphabet; }
   const Settings& settings() const { return settings_; }
   /// The volume of this name in the derivation that was started last, in units. Throws InputError for none.
   VolumePtr volume(const std::string& name) const;
@@ -70,7 +70,7 @@ class Derivation {
   void update_light();
   Vec3 towards_sun() const;
 
-  Workshop workshop_;
+  RuleContext shared_;
   Limits limits_;
   std::vector<ConstantValue> constants_;
   std::vector<SettingValue> setting_values_;

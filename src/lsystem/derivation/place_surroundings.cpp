@@ -20,17 +20,17 @@ void collect_numbers(const VolumeTree& tree, const VolumeDeclaration& declaratio
 
 }  // namespace
 
-SurroundingsMaker::SurroundingsMaker(Workshop& workshop) : workshop_(workshop) {
-  for (const VolumeDeclaration& declaration : workshop.grammar.volumes) {
+SurroundingsMaker::SurroundingsMaker(RuleContext& shared) : shared_(shared) {
+  for (const VolumeDeclaration& declaration : shared.grammar.volumes) {
     VolumeEntry& entry = volumes_.emplace_back(VolumeEntry{&declaration, {}, {}, nullptr});
     collect_numbers(declaration.tree, declaration, entry.texts);
     for (const Expression& text : entry.texts)
-      entry.numbers.emplace_back(text, std::span<const std::string>(), false, workshop);
+      entry.numbers.emplace_back(text, std::span<const std::string>(), false, shared);
   }
-  for (const FieldDeclaration& declaration : workshop.grammar.fields) {
+  for (const FieldDeclaration& declaration : shared.grammar.fields) {
     FieldEntry& entry = fields_.emplace_back(FieldEntry{&declaration, {}});
     for (const Expression& text : declaration.frame)
-      entry.numbers.emplace_back(text, std::span<const std::string>(), false, workshop);
+      entry.numbers.emplace_back(text, std::span<const std::string>(), false, shared);
   }
 }
 
@@ -42,26 +42,26 @@ void SurroundingsMaker::replace(const std::string& name, VolumePtr volume) {
     return;
   }
   if (volume)
-    throw_input_error("{}: got a volume for '{}', expected one for {}", workshop_.grammar.name, name,
+    throw_input_error("{}: got a volume for '{}', expected one for {}", shared_.grammar.name, name,
                       volumes_.empty() ? "none: the L-system declares no volumes"
-                                       : fmt::format("{}", fmt::join(workshop_.grammar.names.volumes, ", ")));
+                                       : fmt::format("{}", fmt::join(shared_.grammar.names.volumes, ", ")));
 }
 
 void SurroundingsMaker::clear() {
-  workshop_.surroundings.volumes.clear();
-  workshop_.surroundings.fields.clear();
+  shared_.surroundings.volumes.clear();
+  shared_.surroundings.fields.clear();
 }
 
 VolumePtr SurroundingsMaker::make(VolumeEntry& entry, const Evaluate& evaluate) {
   if (entry.replaced) return entry.replaced;
   std::size_t next = 0;
-  const auto& names = workshop_.grammar.names.volumes;
+  const auto& names = shared_.grammar.names.volumes;
   try {
     return make_volume(
         entry.declaration->tree, [&](const VolumeTree::Number&) { return evaluate(entry.numbers[next++]); },
         [&](const std::string& name) {
           const auto found = std::find(names.begin(), names.end(), name);
-          return workshop_.surroundings.volumes.at(static_cast<std::size_t>(found - names.begin()));
+          return shared_.surroundings.volumes.at(static_cast<std::size_t>(found - names.begin()));
         });
   } catch (const VolumeError& error) {
     throw_at(place_in(*entry.declaration, error.offset), "{}", error.what());
@@ -71,7 +71,7 @@ VolumePtr SurroundingsMaker::make(VolumeEntry& entry, const Evaluate& evaluate) 
 void SurroundingsMaker::make_after(std::size_t constants, const Evaluate& evaluate) {
   for (VolumeEntry& entry : volumes_)
     if (entry.declaration->constants_before == constants)
-      workshop_.surroundings.volumes.push_back(make(entry, evaluate));
+      shared_.surroundings.volumes.push_back(make(entry, evaluate));
   for (FieldEntry& entry : fields_) {
     if (entry.declaration->constants_before != constants) continue;
     const double x = evaluate(entry.numbers[0]), y = evaluate(entry.numbers[1]),
@@ -79,7 +79,7 @@ void SurroundingsMaker::make_after(std::size_t constants, const Evaluate& evalua
     if (!(width > 0))
       throw_at(entry.declaration->frame[2].position, "field '{}': got width {}, expected one above 0",
                entry.declaration->name, width);
-    workshop_.surroundings.fields.push_back({entry.declaration->picture, x, y, width});
+    shared_.surroundings.fields.push_back({entry.declaration->picture, x, y, width});
   }
 }
 

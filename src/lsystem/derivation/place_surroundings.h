@@ -14,7 +14,7 @@ class SurroundingsMaker {
  public:
   using Evaluate = std::function<double(BlockExpression&)>;
 
-  explicit SurroundingsMaker(Workshop& workshop);
+  explicit SurroundingsMaker(RuleContext& shared);
 
   /// From the next derivation on, `name` stands for `volume` (units) whatever the file says; null: as it
   /// says. Throws InputError where the file has no volume of that name.
@@ -36,7 +36,7 @@ class SurroundingsMaker {
   };
   VolumePtr make(VolumeEntry& entry, const Evaluate& evaluate);
 
-  Workshop& workshop_;
+  RuleContext& shared_;
   std::deque<VolumeEntry> volumes_;
   std::deque<FieldEntry> fields_;
 };

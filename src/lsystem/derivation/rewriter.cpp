@@ -4,17 +4,17 @@
 
 namespace espalier::lsystem {
 
-Rewriter::Rewriter(const std::vector<Production>& productions, Workshop& workshop, const Limits& limits)
-    : workshop_(workshop), limits_(limits) {
+Rewriter::Rewriter(const std::vector<Production>& productions, RuleContext& shared, const Limits& limits)
+    : shared_(shared), limits_(limits) {
   for (const Production& production : productions)
-    rules_.push_back(std::make_unique<Rule>(production, workshop));
+    rules_.push_back(std::make_unique<Rule>(production, shared));
 }
 
 /// The groups of the productions that take part in this step.
 void Rewriter::prepare_groups(const std::vector<bool>& table_is_on) {
   groups_.clear();
   needs_index_ = false;
-  group_of_.assign(workshop_.alphabet.size(), -1);
+  group_of_.assign(shared_.alphabet.size(), -1);
   for (const auto& rule : rules_) {
     const Production& production = rule->production();
     if (production.table >= 0 && !table_is_on[static_cast<std::size_t>(production.table)]) continue;
@@ -30,13 +30,13 @@ void Rewriter::prepare_groups(const std::vector<bool>& table_is_on) {
 }
 
 void Rewriter::prepare_skipped() {
-  const Grammar& grammar = workshop_.grammar;
+  const Grammar& grammar = shared_.grammar;
   const auto is_in = [](const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  skipped_.assign(workshop_.alphabet.size(), 0);
+  skipped_.assign(shared_.alphabet.size(), 0);
   for (std::size_t id = 0; id < skipped_.size(); ++id) {
-    const std::string& name = workshop_.alphabet[static_cast<SymbolId>(id)].name;
+    const std::string& name = shared_.alphabet[static_cast<SymbolId>(id)].name;
     skipped_[id] =
         is_in(grammar.ignored, name) || (grammar.has_considered && !is_in(grammar.considered, name));
   }
@@ -46,9 +46,9 @@ void Rewriter::rewrite(const ModuleString& string, RandomKey key, const std::vec
                        ModuleString& result) {
   prepare_groups(table_is_on);
   if (needs_index_) {
-    const SymbolId open = workshop_.alphabet.intern("[", 0), close = workshop_.alphabet.intern("]", 0);
+    const SymbolId open = shared_.alphabet.intern("[", 0), close = shared_.alphabet.intern("]", 0);
     prepare_skipped();
-    index_.build(string, workshop_.alphabet, open, close, skipped_, workshop_.grammar.follow_branches);
+    index_.build(string, shared_.alphabet, open, close, skipped_, shared_.grammar.follow_branches);
   }
   result.clear();
   value_offset_ = 0;
@@ -62,7 +62,7 @@ void Rewriter::rewrite(const ModuleString& string, RandomKey key, const std::vec
     if (result.size() > limits_.modules)
       throw TooManyModules(
           fmt::format("{}: the string has more than {} modules, expected fewer (--max-modules)",
-                      workshop_.grammar.name, limits_.modules));
+                      shared_.grammar.name, limits_.modules));
   }
   result.symbols.fit();
   result.values.fit();
@@ -73,7 +73,7 @@ void Rewriter::collect(const ModuleString& string, std::size_t begin, std::size_
   block_begin_ = begin;
   choices_.assign(end - begin, {});
   for (Group& group : groups_) group.candidates.clear();
-  const std::uint8_t* arities = workshop_.alphabet.arities().data();
+  const std::uint8_t* arities = shared_.alphabet.arities().data();
   std::size_t offset = value_offset_;
   for (std::size_t i = begin; i < end; ++i) {
     const SymbolId symbol = string.symbols[i];
@@ -109,7 +109,7 @@ void Rewriter::choose_among(const Candidates& candidates, const std::vector<Rule
   const std::size_t count = candidates.size();
   claims_.assign(count, Claim::none);
   if (rules.size() == 1 && !rules[0]->production().probability) {
-    rules[0]->match(candidates, rewriting, workshop_);
+    rules[0]->match(candidates, rewriting, shared_);
     for (const std::uint16_t hit : rules[0]->hits()) claims_[hit] = Claim::deterministic;
     return apply(*rules[0], candidates, rewriting);
   }
@@ -118,7 +118,7 @@ void Rewriter::choose_among(const Candidates& candidates, const std::vector<Rule
   totals_.assign(count, 0);
   draws_.assign(count, -1);
   for (Rule* rule : rules) {
-    rule->match(candidates, rewriting, workshop_);
+    rule->match(candidates, rewriting, shared_);
     claim_hits(*rule, candidates, rewriting);
   }
   for (std::size_t i = 0; i < count; ++i)
@@ -166,20 +166,20 @@ void Rewriter::check_total(const Candidates& candidates, std::size_t candidate,
                            const std::vector<Rule*>& rules, const Rewriting& rewriting) const {
   throw_at(rules[0]->production().position,
            "module {}: the probabilities of {} and the others sum to {}, expected at most 1",
-           text_of(candidates, candidate, rewriting, workshop_.alphabet), rules[0]->production().name,
+           text_of(candidates, candidate, rewriting, shared_.alphabet), rules[0]->production().name,
            totals_[candidate]);
 }
 
 void Rewriter::fail_conflict(const Rule& rule, const Rule& other, const Candidates& candidates,
                              std::size_t candidate, const Rewriting& rewriting) const {
   throw_at(rule.production().position, "module {}: {} and {} ({}) both apply, expected one of them",
-           text_of(candidates, candidate, rewriting, workshop_.alphabet), rule.production().name,
+           text_of(candidates, candidate, rewriting, shared_.alphabet), rule.production().name,
            other.production().name, describe(other.production().position));
 }
 
 void Rewriter::apply(Rule& rule, const Candidates& candidates, const Rewriting& rewriting) {
   if (rule.hits().empty()) return;
-  rule.compute_successor(candidates, rewriting, workshop_);
+  rule.compute_successor(candidates, rewriting, shared_);
   for (std::size_t slot = 0; slot < rule.hits().size(); ++slot)
     if (rule.replaces(slot))
       choices_[candidates.module[rule.hits()[slot]] - block_begin_] = {&rule,
@@ -188,7 +188,7 @@ void Rewriter::apply(Rule& rule, const Candidates& candidates, const Rewriting& 
 
 /// Writes the block's part of the result: successors, and runs of modules that stay.
 void Rewriter::emit(const ModuleString& string, std::size_t begin, std::size_t end, ModuleString& result) {
-  const std::uint8_t* arities = workshop_.alphabet.arities().data();
+  const std::uint8_t* arities = shared_.alphabet.arities().data();
   const SymbolId* symbols = string.symbols.data();
   const double* values = string.values.data() + value_offset_;
   std::size_t symbol_count = 0, value_count = 0;

@@ -11,7 +11,7 @@ namespace espalier::lsystem {
 
 class Rewriter {
  public:
-  Rewriter(const std::vector<Production>& productions, Workshop& workshop, const Limits& limits);
+  Rewriter(const std::vector<Production>& productions, RuleContext& shared, const Limits& limits);
 
   void set_limits(const Limits& limits) { limits_ = limits; }
   bool is_empty() const { return rules_.empty(); }
@@ -48,7 +48,7 @@ class Rewriter {
   [[noreturn]] void fail_conflict(const Rule& rule, const Rule& other, const Candidates& candidates,
                                   std::size_t candidate, const Rewriting& rewriting) const;
 
-  Workshop& workshop_;
+  RuleContext& shared_;
   Limits limits_;
   std::vector<std::unique_ptr<Rule>> rules_;
   std::vector<Group> groups_;

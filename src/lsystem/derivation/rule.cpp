@@ -17,23 +17,23 @@ void append_parameters(std::vector<std::string>& names, std::span<const PatternM
 
 }  // namespace
 
-Rule::Rule(const Production& production, Workshop& workshop) : production_(&production) {
+Rule::Rule(const Production& production, RuleContext& shared) : production_(&production) {
   append_parameters(parameters_, production.left);
   own_begin_ = parameters_.size();
   append_parameters(parameters_, std::span(&production.predecessor, 1));
   own_end_ = parameters_.size();
   append_parameters(parameters_, production.right);
-  if (production.condition) condition_.emplace(*production.condition, parameters_, true, workshop);
-  if (production.probability) probability_.emplace(*production.probability, parameters_, false, workshop);
+  if (production.condition) condition_.emplace(*production.condition, parameters_, true, shared);
+  if (production.probability) probability_.emplace(*production.probability, parameters_, false, shared);
   for (const SuccessorModule& module : production.successor) {
     successor_.push_back(module.symbol);
     for (const Expression& argument : module.arguments) {
-      const bool query = is_query(workshop.alphabet[module.symbol].name);
+      const bool query = is_query(shared.alphabet[module.symbol].name);
       argument_of_value_.push_back(query ? -1 : static_cast<int>(arguments_.size()));
-      if (!query) arguments_.emplace_back(argument, parameters_, false, workshop);
+      if (!query) arguments_.emplace_back(argument, parameters_, false, shared);
     }
   }
-  if (production.lua_body) body_ = workshop.functions.compile_body(*production.lua_body, parameters_);
+  if (production.lua_body) body_ = shared.functions.compile_body(*production.lua_body, parameters_);
   column_data_.resize(parameters_.size());
   needs_keys_ = body_ || (condition_ && condition_->draws()) || (probability_ && probability_->draws()) ||
                 std::any_of(arguments_.begin(), arguments_.end(), [](const auto& a) { return a.draws(); });
@@ -87,18 +87,18 @@ void Rule::gather(const Candidates& candidates, const Rewriting& rewriting) {
   for (const auto& column : column_data_) columns_.push_back({column.data(), 1});
 }
 
-void Rule::match(const Candidates& candidates, const Rewriting& rewriting, Workshop& workshop) {
+void Rule::match(const Candidates& candidates, const Rewriting& rewriting, RuleContext& shared) {
   bodies_.clear();
   match_contexts(candidates, rewriting.index);
   if (hits_.empty()) return;
   gather(candidates, rewriting);
   make_keys(candidates, rewriting);
-  if (condition_) apply_condition(candidates, rewriting, workshop);
+  if (condition_) apply_condition(candidates, rewriting, shared);
   if (!probability_ || hits_.empty()) return;
-  weights_ = compute(*probability_, "probability", candidates, rewriting, workshop);
+  weights_ = compute(*probability_, "probability", candidates, rewriting, shared);
   for (std::size_t slot = 0; slot < hits_.size(); ++slot)
     if (weights_[slot] < 0)
-      fail(candidates, rewriting, slot, workshop,
+      fail(candidates, rewriting, slot, shared,
            fmt::format("probability is {}, expected none below 0", weights_[slot]));
 }
 
@@ -108,8 +108,8 @@ void Rule::make_keys(const Candidates& candidates, const Rewriting& rewriting) {
   for (const std::uint16_t hit : hits_) keys_.push_back(rewriting.module_key(candidates.module[hit]));
 }
 
-void Rule::apply_condition(const Candidates& candidates, const Rewriting& rewriting, Workshop& workshop) {
-  const Column holds = compute(*condition_, "condition", candidates, rewriting, workshop);
+void Rule::apply_condition(const Candidates& candidates, const Rewriting& rewriting, RuleContext& shared) {
+  const Column holds = compute(*condition_, "condition", candidates, rewriting, shared);
   std::vector<std::uint8_t> keep(hits_.size());
   for (std::size_t slot = 0; slot < keep.size(); ++slot) keep[slot] = holds[slot] != 0;
   compress(keep);
@@ -135,55 +135,55 @@ void Rule::keep_hits(std::span<const std::uint8_t> keep) {
   if (std::find(keep.begin(), keep.end(), 0) != keep.end()) compress(keep);
 }
 
-void Rule::compute_successor(const Candidates& candidates, const Rewriting& rewriting, Workshop& workshop) {
-  if (body_) return run_bodies(candidates, rewriting, workshop);
+void Rule::compute_successor(const Candidates& candidates, const Rewriting& rewriting, RuleContext& shared) {
+  if (body_) return run_bodies(candidates, rewriting, shared);
   results_.clear();
   for (BlockExpression& argument : arguments_)
-    results_.push_back(compute(argument, "argument", candidates, rewriting, workshop));
+    results_.push_back(compute(argument, "argument", candidates, rewriting, shared));
 }
 
-void Rule::run_bodies(const Candidates& candidates, const Rewriting& rewriting, Workshop& workshop) {
+void Rule::run_bodies(const Candidates& candidates, const Rewriting& rewriting, RuleContext& shared) {
   produced_.clear();
   for (std::size_t slot = 0; slot < hits_.size(); ++slot) {
     try {
-      const bool produced = workshop.functions.run_body(*body_, columns_, slot, keys_[slot], produced_);
+      const bool produced = shared.functions.run_body(*body_, columns_, slot, keys_[slot], produced_);
       bodies_.push_back({produced, static_cast<std::uint32_t>(produced_.symbols.size()),
                          static_cast<std::uint32_t>(produced_.values.size())});
     } catch (const InputError& error) {
-      fail(candidates, rewriting, slot, workshop, error.what());
+      fail(candidates, rewriting, slot, shared, error.what());
     }
   }
 }
 
 Column Rule::compute(BlockExpression& expression, const char* what, const Candidates& candidates,
-                     const Rewriting& rewriting, Workshop& workshop) {
+                     const Rewriting& rewriting, RuleContext& shared) {
   const auto text = [&](const std::string& problem) {
     return fmt::format("{} '{}' {}", what, expression.source().text, problem);
   };
   Column column;
   try {
-    column = expression.compute(columns_, needs_keys_ ? keys_.data() : nullptr, hits_.size(), workshop);
+    column = expression.compute(columns_, needs_keys_ ? keys_.data() : nullptr, hits_.size(), shared);
   } catch (const InputError& all) {
     // Which module it was: one by one.
     for (std::size_t slot = 0; slot < hits_.size(); ++slot) try {
         std::vector<Column> one;
         for (const Column& c : columns_) one.push_back({c.data + slot * c.stride, 0});
-        expression.compute(one, needs_keys_ ? keys_.data() + slot : nullptr, 1, workshop);
+        expression.compute(one, needs_keys_ ? keys_.data() + slot : nullptr, 1, shared);
       } catch (const InputError& error) {
-        fail(candidates, rewriting, slot, workshop, text(error.what()));
+        fail(candidates, rewriting, slot, shared, text(error.what()));
       }
     throw;
   }
   if (const auto bad = BlockExpression::first_not_finite(column, hits_.size()))
-    fail(candidates, rewriting, *bad, workshop,
+    fail(candidates, rewriting, *bad, shared,
          text(fmt::format("is {}, expected a finite number (a division by zero?)", column[*bad])));
   return column;
 }
 
 void Rule::fail(const Candidates& candidates, const Rewriting& rewriting, std::size_t slot,
-                const Workshop& workshop, const std::string& message) const {
+                const RuleContext& shared, const std::string& message) const {
   const std::size_t hit = hits_[slot], module = candidates.module[hit];
-  const Symbol& symbol = workshop.alphabet[rewriting.string.symbols[module]];
+  const Symbol& symbol = shared.alphabet[rewriting.string.symbols[module]];
   const std::string text = module_text(symbol, rewriting.string.values.data() + candidates.values[hit]);
   throw_at(production_->position, "{}, module {}: {}", production_->name, text, message);
 }

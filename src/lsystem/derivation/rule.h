@@ -14,7 +14,7 @@
 namespace espalier::lsystem {
 
 /// What all rules of a derivation share.
-struct Workshop {
+struct RuleContext {
   const Grammar& grammar;
   SymbolTable alphabet;
   LuaState lua;
@@ -23,7 +23,7 @@ struct Workshop {
   std::vector<double> globals;     ///< values of Names::globals
   std::uint32_t random_sites = 1;  ///< 0 is the choice between stochastic productions
 
-  Workshop(const Grammar& file, const Limits& limits)
+  RuleContext(const Grammar& file, const Limits& limits)
       : grammar(file), alphabet(file.alphabet), lua(limits), functions(lua, file, alphabet) {
     add_surroundings(lua, surroundings);
   }
@@ -33,12 +33,12 @@ struct Workshop {
 class BlockExpression {
  public:
   BlockExpression(const Expression& expression, std::span<const std::string> columns, bool is_condition,
-                  Workshop& workshop);
+                  RuleContext& shared);
 
   /// One value a module; of a condition 1 or 0. Throws InputError at the expression's place, naming `owner`
   /// and the module, where a value is no finite number.
   Column compute(std::span<const Column> columns, const RandomKey* keys, std::size_t count,
-                 Workshop& workshop);
+                 RuleContext& shared);
 
   const Expression& source() const { return *source_; }
   /// Whether it may call random().
@@ -75,19 +75,19 @@ struct Rewriting {
 
 class Rule {
  public:
-  Rule(const Production& production, Workshop& workshop);
+  Rule(const Production& production, RuleContext& shared);
 
   const Production& production() const { return *production_; }
 
   /// Finds the candidates that fit contexts and condition: hits(), and for a stochastic rule weights().
-  void match(const Candidates& candidates, const Rewriting& rewriting, Workshop& workshop);
+  void match(const Candidates& candidates, const Rewriting& rewriting, RuleContext& shared);
   /// Positions among the candidates, ascending.
   const std::vector<std::uint16_t>& hits() const { return hits_; }
   const Column& weights() const { return weights_; }
 
   /// Keeps the hits for which `keep` holds and computes what replaces them.
   void keep_hits(std::span<const std::uint8_t> keep);
-  void compute_successor(const Candidates& candidates, const Rewriting& rewriting, Workshop& workshop);
+  void compute_successor(const Candidates& candidates, const Rewriting& rewriting, RuleContext& shared);
 
   /// How many modules and parameters replace hit `slot`.
   std::size_t symbol_count(std::size_t slot) const;
@@ -105,14 +105,14 @@ class Rule {
 
   void gather(const Candidates& candidates, const Rewriting& rewriting);
   void match_contexts(const Candidates& candidates, const StringIndex& index);
-  void apply_condition(const Candidates& candidates, const Rewriting& rewriting, Workshop& workshop);
+  void apply_condition(const Candidates& candidates, const Rewriting& rewriting, RuleContext& shared);
   void compress(std::span<const std::uint8_t> keep_by_slot);
   void make_keys(const Candidates& candidates, const Rewriting& rewriting);
-  void run_bodies(const Candidates& candidates, const Rewriting& rewriting, Workshop& workshop);
+  void run_bodies(const Candidates& candidates, const Rewriting& rewriting, RuleContext& shared);
   Column compute(BlockExpression& expression, const char* what, const Candidates& candidates,
-                 const Rewriting& rewriting, Workshop& workshop);
+                 const Rewriting& rewriting, RuleContext& shared);
   [[noreturn]] void fail(const Candidates& candidates, const Rewriting& rewriting, std::size_t slot,
-                         const Workshop& workshop, const std::string& message) const;
+                         const RuleContext& shared, const std::string& message) const;
   std::span<const Column> columns() const { return columns_; }
 
   const Production* production_;

@@ -227,7 +227,7 @@ class Parser {
   bool parse_setting(Cursor& cursor) {
     const std::size_t begin = cursor.at();
     const std::string name(cursor.take_word());
-    const SettingInfo* info = find_setting(name);
+    const NotationSetting* info = find_setting(name);
     if (!info || !cursor.take(":") || cursor.rest().find("-->") != std::string_view::npos) {
       cursor.go_to(begin);
       return false;

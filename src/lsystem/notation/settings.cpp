@@ -9,7 +9,7 @@ constexpr double kLarge = 1e6;
 
 using Values = SettingValues;
 
-constexpr std::array<SettingInfo, 13> kSettings{{
+constexpr std::array<NotationSetting, 13> kSettings{{
     {"steps", 1, 0, 10'000, [](Settings& s, const Values& v) { s.steps = static_cast<int>(v[0]); }},
     {"angle", 1, -3600, 3600, [](Settings& s, const Values& v) { s.angle_deg = v[0]; }},
     {"length", 1, 0, kLarge, [](Settings& s, const Values& v) { s.length = v[0]; }},
@@ -29,8 +29,8 @@ constexpr std::array<SettingInfo, 13> kSettings{{
 
 }  // namespace
 
-const SettingInfo* find_setting(std::string_view name) {
-  for (const SettingInfo& info : kSettings)
+const NotationSetting* find_setting(std::string_view name) {
+  for (const NotationSetting& info : kSettings)
     if (info.name == name) return &info;
   return nullptr;
 }

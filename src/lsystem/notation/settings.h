@@ -27,7 +27,7 @@ struct Settings {
 
 using SettingValues = std::array<double, 3>;
 
-struct SettingInfo {
+struct NotationSetting {
   std::string_view name;
   std::size_t value_count = 1;
   double lower = 0, upper = 0;  ///< of each value
@@ -35,6 +35,6 @@ struct SettingInfo {
 };
 
 /// nullptr where there is no such setting.
-const SettingInfo* find_setting(std::string_view name);
+const NotationSetting* find_setting(std::string_view name);
 
 }  // namespace espalier::lsystem

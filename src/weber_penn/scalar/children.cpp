@@ -12,8 +12,8 @@ namespace {
 
 /// Heading along the curve; `right` as [CH §3.2.1]: (forward × right at the segment's end) × tangent, and
 /// along a helix the turn of the tangent.
-Turtle frame_at(const Segment& segment, float t) {
-  Turtle frame;
+StemTurtle frame_at(const Segment& segment, float t) {
+  StemTurtle frame;
   frame.position_m = segment_point(segment, t);
   frame.forward = segment_tangent(segment, t);
   const Vec3 right = segment.helical ? cross(segment_tangent(segment, t + 0.05f), frame.forward)

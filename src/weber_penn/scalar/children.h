@@ -26,7 +26,7 @@ struct ChildRun {
 /// One place for a child on its parent's axis.
 struct ChildSite {
   int index = 0;              ///< along the parent, from its base
-  Turtle turtle;              ///< on the axis of the parent, heading along the child
+  StemTurtle turtle;          ///< on the axis of the parent, heading along the child
   Vec3 outward;               ///< unit normal of the parent on the child's side
   float offset_m = 0;         ///< along the parent
   float parent_radius_m = 0;  ///< at the offset

@@ -22,7 +22,7 @@ Helix make_helix(const GrowingStem& stem, const WeberPennParameters& p) {
   helix.pitch_m = 2 * stem.length_m / static_cast<float>(segments) * pitch_jitter;  // [CH] p = 2L/m
   helix.radius_m =
       3 * helix.pitch_m / (16 * std::tan(radians(theta_deg))) * radius_jitter;  // [CH] r = 3p/(16 tan θ)
-  Turtle frame = stem.turtle;
+  StemTurtle frame = stem.turtle;
   frame.roll_right(360 * draw_unit(stem.key, Draw::helix_roll));
   helix.axis = frame.forward;
   helix.u = frame.right;

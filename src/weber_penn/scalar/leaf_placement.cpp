@@ -9,7 +9,7 @@ namespace {
 
 /// leaf_bend turns the leaf about z so that its normal faces away from the trunk, by that fraction of the
 /// angle [Weber & Penn 95, §4.9].
-void bend_outwards(Turtle& leaf, float leaf_bend) {
+void bend_outwards(StemTurtle& leaf, float leaf_bend) {
   const Vec3 normal = cross(leaf.right, leaf.forward);
   const float outward = std::atan2(leaf.position_m.y, leaf.position_m.x);
   const float facing = std::atan2(normal.y, normal.x);
@@ -30,7 +30,7 @@ float leaf_growth(const GrowingStem& stem, float grown_fraction, const WeberPenn
 
 void place_leaf(const GrowingStem& stem, const ChildSite& site, const WeberPennParameters& p,
                 Leaves& leaves) {
-  Turtle leaf = site.turtle;
+  StemTurtle leaf = site.turtle;
   leaf.position_m += site.outward * site.parent_radius_m;
   if (p.leaf_bend > 0) bend_outwards(leaf, p.leaf_bend);
   leaves.position_m.push_back(leaf.position_m);

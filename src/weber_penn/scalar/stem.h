@@ -6,7 +6,7 @@
 #include <espalier/core/random.h>
 #include <espalier/overrides/change_graph.h>
 #include <espalier/plant/branch_path.h>
-#include <espalier/weber_penn/scalar/turtle.h>
+#include <espalier/weber_penn/scalar/stem_turtle.h>
 #include <espalier/weber_penn/table/parameters.h>
 
 namespace espalier {
@@ -68,7 +68,7 @@ struct GrowingStem {
   ChangeCursor cursor;     ///< its overrides
   ExtraCurve extra_curve;  ///< by an override, or by training
   Tree tree;
-  Turtle turtle;        ///< at the start of the stem (for a clone: at the split)
+  StemTurtle turtle;    ///< at the start of the stem (for a clone: at the split)
   float length_m = 0;   ///< of the whole stem, also for a clone that starts midway
   float radius_m = 0;   ///< at the base of the whole stem
   float child_max = 0;  ///< longest child relative to this stem

@@ -113,7 +113,7 @@ Fork round_fork(const GrowingStem& stem, int at, int count, bool at_base, const 
 }
 
 /// Turns part `index` of count + 1, 0 being the stem itself.
-void turn_into_fork(Turtle& turtle, const Fork& fork, int index, int count) {
+void turn_into_fork(StemTurtle& turtle, const Fork& fork, int index, int count) {
   const float side = static_cast<float>(index) / static_cast<float>(count) - 0.5f;
   turtle.turn_right(fork.turn_deg * side);
   turtle.pitch_down(fork.pitch_deg);

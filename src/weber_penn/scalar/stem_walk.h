@@ -10,7 +10,7 @@ namespace espalier {
 struct Segment {
   Vec3 start_m, handle_out_m, handle_in_m, end_m;
   float z_start = 0, z_end = 0;
-  Turtle end;  ///< on arrival, before the stem turns
+  StemTurtle end;  ///< on arrival, before the stem turns
   bool helical = false;
 };
 

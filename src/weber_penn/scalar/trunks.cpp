@@ -33,7 +33,7 @@ Vec3 free_place(RandomKey key, const std::vector<GrowingStem>& stems, float disc
   }
 }
 
-void lean_outwards(Turtle& turtle, float disc_radius_m) {
+void lean_outwards(StemTurtle& turtle, float disc_radius_m) {
   const Vec3 outward = normalized(turtle.position_m, {1, 0, 0});
   turtle.right = cross(outward, turtle.forward);
   turtle.pitch_down(kLeanAtRimDeg * length(turtle.position_m) / disc_radius_m);

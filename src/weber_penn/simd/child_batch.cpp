@@ -253,7 +253,7 @@ void ChildBatch::add_run(const GrowingStem& stem, const Segment& segment, const 
 void ChildBatch::add(const GrowingStem& stem, const StemBatch& batch, std::size_t index_in_batch) {
   const bool bears_leaves = bears_ == ChildPlacer::Bears::leaves;
   const float count = bears_leaves ? leaf_count(stem, p_) : child_stem_count(stem, p_);
-  if (ChildSpread::takes(count, stem.level + 1, p_))
+  if (ChildSpread::supports(count, stem.level + 1, p_))
     return add_spread(stem, batch.curve(index_in_batch), count);
   ChildPlacer placer(stem, bears_, p_);
   for (int i = 0; i < batch.segment_count(); ++i) {

@@ -16,7 +16,7 @@ float alternating_deg(int child, float rotate_deg) {
 
 }  // namespace
 
-bool ChildSpread::takes(float child_count, int child_level, const WeberPennParameters& p) {
+bool ChildSpread::supports(float child_count, int child_level, const WeberPennParameters& p) {
   return child_count >= 0 && p.branch_dist[level_index(child_level)] <= 1;
 }
 

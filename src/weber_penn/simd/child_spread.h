@@ -12,7 +12,7 @@ namespace espalier {
 class ChildSpread {
  public:
   /// Not for fans and whorls.
-  static bool takes(float child_count, int child_level, const WeberPennParameters& parameters);
+  static bool supports(float child_count, int child_level, const WeberPennParameters& parameters);
 
   /// `count`: leaf_count or child_stem_count of the stem.
   void spread(const GrowingStem& stem, float count, const WeberPennParameters& parameters);

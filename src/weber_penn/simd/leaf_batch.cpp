@@ -123,7 +123,7 @@ namespace espalier {
 HWY_EXPORT(place_in_rows);
 HWY_EXPORT(place_in_columns);
 
-bool LeafBatch::takes(const GrowingStem& stem, const WeberPennParameters& p) {
+bool LeafBatch::supports(const GrowingStem& stem, const WeberPennParameters& p) {
   return p.leaf_blos_num > 0 && takes_children_of(stem.level, p);
 }
 

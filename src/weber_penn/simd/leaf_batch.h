@@ -18,7 +18,7 @@ class LeafBatch : public ChildBatch {
 
   /// Whether leaves of this stem can be placed in batches: not in fans, on helices, on trunks, or where the
   /// stem swells periodically.
-  static bool takes(const GrowingStem& stem, const WeberPennParameters& parameters);
+  static bool supports(const GrowingStem& stem, const WeberPennParameters& parameters);
 
   /// Appends what waits to `leaves`, or gives it to the sink.
   void flush() override;

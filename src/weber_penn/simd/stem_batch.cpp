@@ -232,7 +232,7 @@ namespace espalier {
 
 HWY_EXPORT(walk_batch);
 
-bool StemBatch::takes(int level, const WeberPennParameters& p) {
+bool StemBatch::supports(int level, const WeberPennParameters& p) {
   const int i = level_index(level);
   return p.curve_v[i] >= 0 && p.seg_splits[i] <= 0 && !(level == 0 && p.base_splits != 0);
 }

@@ -45,7 +45,7 @@ class StemBatch {
   static constexpr int kMostStems = 8;
 
   /// Whether stems of this level can be walked in batches, unless overrides bend them.
-  static bool takes(int level, const WeberPennParameters& parameters);
+  static bool supports(int level, const WeberPennParameters& parameters);
 
   /// Walks 1 to kMostStems stems of one level from their bases; the curves of the batch before are gone.
   void walk(std::span<const GrowingStem> stems, const WeberPennParameters& parameters);

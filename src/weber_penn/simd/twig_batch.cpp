@@ -64,7 +64,7 @@ namespace espalier {
 
 HWY_EXPORT(make_stems);
 
-bool TwigBatch::takes(const GrowingStem& parent, const WeberPennParameters& p) {
+bool TwigBatch::supports(const GrowingStem& parent, const WeberPennParameters& p) {
   return p.branches[level_index(parent.level + 1)] >= 0 && takes_children_of(parent.level, p);
 }
 

@@ -37,7 +37,7 @@ class TwigBatch : public ChildBatch {
 
   /// Whether children of these stems can be made in batches: not in fans, on helices, on trunks, or where the
   /// stem swells periodically.
-  static bool takes(const GrowingStem& parent, const WeberPennParameters& parameters);
+  static bool supports(const GrowingStem& parent, const WeberPennParameters& parameters);
 
   /// The place in the plant of the stem whose children are added next.
   void set_parent(std::int32_t index) { parent_index_ = index; }

@@ -150,8 +150,8 @@ BranchRounds two_lanes(SmallTask& small) {
   refine_branches(small.task, settings_of(0, 100), good);
   EXPECT_LT(good.score, bad.score);
   BranchRounds state = begin_branch_rounds(small.task, {good, bad}, 10);
-  EXPECT_EQ(state.lanes[0].overrides.nodes.size(), 1u);
-  EXPECT_TRUE(state.lanes[1].overrides.empty());
+  EXPECT_EQ(state.copies[0].overrides.nodes.size(), 1u);
+  EXPECT_TRUE(state.copies[1].overrides.empty());
   return state;
 }
 
@@ -159,14 +159,14 @@ TEST(BranchRounds, AfterEachRoundOfAllOrdersAllLanesGoOnFromTheBest) {
   SmallTask small;
   for (const bool best_first : {true, false}) {
     BranchRounds state = two_lanes(small);
-    const Solution best = state.lanes[0];
-    if (!best_first) std::swap(state.lanes[0], state.lanes[1]);
+    const Solution best = state.copies[0];
+    if (!best_first) std::swap(state.copies[0], state.copies[1]);
     state.rounds = 7;  // the eighth completes the orders
     refine_round(small.task, 5, 1, state);
-    ASSERT_EQ(state.lanes.size(), 2u);
-    for (const Solution& lane : state.lanes) {
-      EXPECT_EQ(lane.score, best.score);
-      EXPECT_EQ(overrides_to_toml(lane.overrides), overrides_to_toml(best.overrides));
+    ASSERT_EQ(state.copies.size(), 2u);
+    for (const Solution& copy : state.copies) {
+      EXPECT_EQ(copy.score, best.score);
+      EXPECT_EQ(overrides_to_toml(copy.overrides), overrides_to_toml(best.overrides));
     }
   }
 }
@@ -176,15 +176,15 @@ TEST(BranchRounds, BetweenThemEachLaneGoesItsOwnWay) {
   BranchRounds state = two_lanes(small);
   state.rounds = 3;
   refine_round(small.task, 5, 1, state);
-  EXPECT_LT(state.lanes[0].score, state.lanes[1].score);
-  BranchRounds alike = begin_branch_rounds(small.task, {state.lanes[1]}, 10);
-  refine_round(small.task, 5, 1, alike);  // of trunks, each lane with its own draws
-  EXPECT_NE(overrides_to_toml(alike.lanes[0].overrides), overrides_to_toml(alike.lanes[1].overrides));
+  EXPECT_LT(state.copies[0].score, state.copies[1].score);
+  BranchRounds alike = begin_branch_rounds(small.task, {state.copies[1]}, 10);
+  refine_round(small.task, 5, 1, alike);  // of trunks, each copy with its own draws
+  EXPECT_NE(overrides_to_toml(alike.copies[0].overrides), overrides_to_toml(alike.copies[1].overrides));
 }
 
 TEST(BranchRounds, TheBestIsTheLaneOfTheLowestScore) {
   BranchRounds state;
-  for (const double score : {0.4, 0.2, 0.3}) state.lanes.push_back({.score = score});
+  for (const double score : {0.4, 0.2, 0.3}) state.copies.push_back({.score = score});
   EXPECT_EQ(state.best().score, 0.2);
 }
 

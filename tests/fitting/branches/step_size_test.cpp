@@ -180,7 +180,7 @@ Moves moves_of_laying(Outcome outcome, std::size_t count) {
   for (Seed seed = 0; seed < 250; ++seed) {
     const WatchedModel model(outcome);
     const FitTask task = watched_task(model);
-    Draws draws(root_key(seed));
+    RandomStream draws(root_key(seed));
     LineInPicture line;
     line.points = {{64, 125}, {64, outcome == Outcome::better ? 30.f : 95.f}};
     line.width_px = 10;

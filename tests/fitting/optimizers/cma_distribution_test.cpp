@@ -99,7 +99,7 @@ int follow(double (*cost)(const Eigen::VectorXd&), std::size_t lambda, int gener
   for (int generation = 0; generation < generations; ++generation) {
     Candidates candidates;
     for (std::size_t i = 0; i < lambda; ++i) {
-      Draws draws = draws_at(root_key(7), std::uint64_t(generation), i);
+      RandomStream draws = random_stream_at(root_key(7), std::uint64_t(generation), i);
       candidates.push_back(cma.sample(draws));
     }
     std::sort(candidates.begin(), candidates.end(),

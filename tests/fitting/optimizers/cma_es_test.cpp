@@ -45,7 +45,7 @@ TEST(CmaParameters, WeightsFallAndTheirRatesLeaveThePastItsShare) {
 class RotatedEllipsoid : public RowFunction {
  public:
   explicit RotatedEllipsoid(std::size_t n) : RowFunction(n) {
-    Draws draws(root_key(99));
+    RandomStream draws(root_key(99));
     const auto size = static_cast<Eigen::Index>(n);
     Eigen::MatrixXd random(size, size);
     for (Eigen::Index i = 0; i < size * size; ++i) random(i % size, i / size) = draws.normal();
@@ -119,7 +119,7 @@ TEST(CmaDistribution, SamplesFollowMeanAndCovariance) {
   for (int generation = 0; generation < 60; ++generation) {  // a narrow valley along (1, 1)
     std::vector<Eigen::VectorXd> candidates;
     for (std::size_t i = 0; i < 10; ++i) {
-      Draws draws = draws_at(root_key(1), std::uint64_t(generation), i);
+      RandomStream draws = random_stream_at(root_key(1), std::uint64_t(generation), i);
       candidates.push_back(cma.sample(draws));
     }
     const auto cost = [](const Eigen::VectorXd& x) {
@@ -131,7 +131,7 @@ TEST(CmaDistribution, SamplesFollowMeanAndCovariance) {
   }
   Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(2, 2);
   constexpr int kCount = 50000;
-  Draws draws(root_key(2));
+  RandomStream draws(root_key(2));
   for (int i = 0; i < kCount; ++i) {
     const Eigen::VectorXd y = (cma.sample(draws) - cma.mean()) / cma.sigma();
     moments += y * y.transpose() / kCount;

@@ -209,7 +209,7 @@ TEST_P(EveryOptimizer, RejectsUnknownSettings) {
 }
 
 TEST_P(EveryOptimizer, RejectsSettingsOutOfRange) {
-  for (const SettingInfo& info : optimizer().settings()) {
+  for (const OptimizerSetting& info : optimizer().settings()) {
     EXPECT_GE(info.default_value, info.lower);
     EXPECT_LE(info.default_value, info.upper);
     EXPECT_FALSE(info.help.empty());
@@ -221,7 +221,7 @@ TEST_P(EveryOptimizer, RejectsSettingsOutOfRange) {
 }
 
 TEST_P(EveryOptimizer, TakesSettingsAtTheEndsOfTheirRanges) {
-  for (const SettingInfo& info : optimizer().settings())
+  for (const OptimizerSetting& info : optimizer().settings())
     for (double value : {info.lower, std::min(info.upper, 1000.0)}) {
       Observer silent;
       const Sphere sphere(kDimension);
@@ -301,7 +301,7 @@ TEST(OptimizerDocs, NameEveryOptimizerAndSetting) {
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   for (const auto& optimizer : all_optimizers()) {
     EXPECT_NE(text.find("| `" + optimizer->name() + "`"), std::string::npos) << optimizer->name();
-    for (const SettingInfo& info : optimizer->settings())
+    for (const OptimizerSetting& info : optimizer->settings())
       EXPECT_NE(text.find("`" + info.name + "`"), std::string::npos) << info.name;
   }
 }

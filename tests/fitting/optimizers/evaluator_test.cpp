@@ -68,10 +68,10 @@ TEST(Ranked, SortsAndKeepsTheOrderOfTies) {
   EXPECT_EQ(ranked(std::vector<double>{2, 1, 2, 0, 1}), (std::vector<std::size_t>{3, 1, 4, 0, 2}));
 }
 
-TEST(Draws, NormalsHaveMeanZeroAndVarianceOne) {
+TEST(RandomStream, NormalsHaveMeanZeroAndVarianceOne) {
   double sum = 0, squares = 0, fourths = 0;
   constexpr int kCount = 100000;
-  Draws draws(root_key(3));
+  RandomStream draws(root_key(3));
   for (int i = 0; i < kCount; ++i) {
     const double z = draws.normal();
     sum += z;
@@ -83,9 +83,9 @@ TEST(Draws, NormalsHaveMeanZeroAndVarianceOne) {
   EXPECT_NEAR(fourths / kCount, 3, 5 * std::sqrt(96.0 / kCount));
 }
 
-TEST(Draws, BelowReachesEachNumberEquallyOften) {
+TEST(RandomStream, BelowReachesEachNumberEquallyOften) {
   std::vector<int> counts(7);
-  Draws draws(root_key(4));
+  RandomStream draws(root_key(4));
   for (int i = 0; i < 70000; ++i) ++counts.at(draws.below(7));
   for (int count : counts) EXPECT_NEAR(count, 10000, 500);
 }

@@ -19,7 +19,7 @@ double fraction() {
 RC_GTEST_PROP(Sbx, KeepsTheMeanOfTheParents, ()) {
   double a = 0.4 + 0.2 * fraction(), b = 0.4 + 0.2 * fraction();
   const double mean = (a + b) / 2;
-  Draws draws(root_key(*rc::gen::arbitrary<Seed>()));
+  RandomStream draws(root_key(*rc::gen::arbitrary<Seed>()));
   sbx_crossover(20, draws, {&a, 1}, {&b, 1});
   RC_ASSERT(std::fabs((a + b) / 2 - mean) < 1e-12);
 }
@@ -28,7 +28,7 @@ TEST(Sbx, SpreadFactorHasItsDensity) {
   // P(beta < 1) = 1/2 and, for eta = 2, P(beta < 0.5) = 0.5 * 0.5^3 (integral of Deb and Agrawal's eq. 7).
   int below_one = 0, below_half = 0;
   constexpr int kCount = 40000;
-  Draws draws(root_key(5));
+  RandomStream draws(root_key(5));
   for (int i = 0; i < kCount; ++i) {
     double a = 0.499, b = 0.501;
     sbx_crossover(2, draws, {&a, 1}, {&b, 1});
@@ -42,14 +42,14 @@ TEST(Sbx, SpreadFactorHasItsDensity) {
 
 RC_GTEST_PROP(Sbx, StaysInTheBox, ()) {
   double a = fraction(), b = fraction();
-  Draws draws(root_key(*rc::gen::arbitrary<Seed>()));
+  RandomStream draws(root_key(*rc::gen::arbitrary<Seed>()));
   sbx_crossover(0, draws, {&a, 1}, {&b, 1});
   RC_ASSERT(a >= 0 && a <= 1 && b >= 0 && b <= 1);
 }
 
 TEST(UniformCrossover, SwapsWithoutLosingAnything) {
   std::vector<double> a(1000, 0.25), b(1000, 0.75);
-  Draws draws(root_key(1));
+  RandomStream draws(root_key(1));
   uniform_crossover(draws, a, b);
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i] + b[i], 1);
   EXPECT_NEAR(static_cast<double>(std::count(a.begin(), a.end(), 0.75)), 500, 80);
@@ -77,7 +77,7 @@ TEST(PolynomialStep, LargerIndexMeansSmallerSteps) {
 
 TEST(PolynomialMutation, ChangesTheShareOfCoordinatesItsChanceSays) {
   std::vector<double> point(20000, 0.5);
-  Draws draws(root_key(1));
+  RandomStream draws(root_key(1));
   polynomial_mutation({0.2, 20}, draws, point);
   const double same = static_cast<double>(std::count(point.begin(), point.end(), 0.5));
   EXPECT_NEAR(same, 16000, 5 * std::sqrt(3200));
@@ -86,7 +86,7 @@ TEST(PolynomialMutation, ChangesTheShareOfCoordinatesItsChanceSays) {
 TEST(InheritRates, KeepTheGeometricMeanOnAverageAndTheirRanges) {
   double log_chance = 0, log_eta = 0, square_chance = 0, square_eta = 0, product = 0;
   constexpr int kCount = 20000;
-  Draws draws(root_key(1));
+  RandomStream draws(root_key(1));
   for (int i = 0; i < kCount; ++i) {
     const MutationRates rates = inherit_rates({0.05, 10}, {0.2, 40}, 100, draws);
     const double chance = std::log(rates.chance / 0.1), eta = std::log(rates.eta / 20);
@@ -110,7 +110,7 @@ TEST(Tournament, WinsWithTheChanceOfTheBestOfItsSize) {
   const std::vector<std::size_t> rank = {3, 0, 2, 1};  // individual 1 is the best
   int wins = 0;
   constexpr int kCount = 20000;
-  Draws draws(root_key(1));
+  RandomStream draws(root_key(1));
   for (int i = 0; i < kCount; ++i) wins += tournament(rank, 3, draws) == 1;
   const double chance = 1 - std::pow(0.75, 3);
   EXPECT_NEAR(wins, kCount * chance, 5 * std::sqrt(kCount * chance * (1 - chance)));
@@ -119,7 +119,7 @@ TEST(Tournament, WinsWithTheChanceOfTheBestOfItsSize) {
 TEST(Tournament, OfOneIsUniformAndAWorseRankNeverBeatsABetter) {
   const std::vector<std::size_t> rank = {3, 0, 2, 1};
   std::vector<int> wins(4), wins_of_two(4);
-  Draws draws(root_key(2));
+  RandomStream draws(root_key(2));
   for (int i = 0; i < 16000; ++i)
     ++wins[tournament(rank, 1, draws)], ++wins_of_two[tournament(rank, 2, draws)];
   for (std::size_t i = 0; i < 4; ++i) {

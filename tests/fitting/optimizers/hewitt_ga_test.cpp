@@ -37,7 +37,7 @@ TEST(PermuteOneParameter, ChangesExactlyOneAndReachesAll) {
   std::set<std::size_t> reached;
   for (std::uint64_t i = 0; i < 300; ++i) {
     std::vector<double> child = parent;
-    Draws draws = draws_at(root_key(1), 0, i);
+    RandomStream draws = random_stream_at(root_key(1), 0, i);
     permute_one_parameter(sphere, {}, draws, child);
     const auto indices = changed(parent, child);
     ASSERT_EQ(indices.size(), 1u);
@@ -54,7 +54,7 @@ TEST(PermuteOneParameter, ChangeIsProportionalToTheParametersValue) {
     double least = 1e9, most = -1e9;
     for (std::uint64_t i = 0; i < 2000; ++i) {
       std::vector<double> child = {objective.unit_of(0, value)};
-      Draws draws = draws_at(root_key(1), 0, i);
+      RandomStream draws = random_stream_at(root_key(1), 0, i);
       permute_one_parameter(objective, numbers, draws, child);
       const double ratio = objective.value_of(0, child[0]) / value;
       least = std::min(least, ratio);
@@ -74,7 +74,7 @@ TEST(PermuteOneParameter, FlipsTheSignWithItsChanceWhereTheBoundsHoldIt) {
   for (std::uint64_t i = 0; i < 4000; ++i) {
     const std::vector<double> parent = {objective.unit_of(0, 4), objective.unit_of(1, 4)};
     std::vector<double> child = parent;
-    Draws draws = draws_at(root_key(2), 0, i);
+    RandomStream draws = random_stream_at(root_key(2), 0, i);
     permute_one_parameter(objective, numbers, draws, child);
     flips += std::fabs(objective.value_of(0, child[0]) + 4) < 1e-9;
     EXPECT_NEAR(child[1], parent[1], 1e-12);  // 0 to 10 has no negative side
@@ -86,7 +86,7 @@ TEST(PermuteOneParameter, ZeroStaysUnlessZeroStepMovesIt) {
   const Sphere sphere(1);
   HewittNumbers numbers;
   std::vector<double> child = {0};
-  Draws draws(root_key(1));
+  RandomStream draws(root_key(1));
   for (int i = 0; i < 50; ++i) permute_one_parameter(sphere, numbers, draws, child);
   EXPECT_EQ(child[0], 0);
   numbers.zero_step = 0.1;
@@ -102,7 +102,7 @@ TEST(PermuteOneParameter, ZeroStaysUnlessZeroStepMovesIt) {
 TEST(MergeParents, TakesEachParameterFromEitherParentEquallyOften) {
   const Sphere sphere(2000);
   const std::vector<double> a(2000, 0.25), b(2000, 0.75);
-  Draws draws(root_key(1));
+  RandomStream draws(root_key(1));
   const std::vector<double> merged = merge_parents(sphere, {}, draws, a, b);
   const auto from_b = std::count(merged.begin(), merged.end(), 0.75);
   EXPECT_EQ(from_b + std::count(merged.begin(), merged.end(), 0.25), 2000);
@@ -113,7 +113,7 @@ TEST(MergeParents, MeanIsTheMeanOfTheValues) {
   const Signed objective(2);
   HewittNumbers numbers;
   numbers.merge_mean = true;
-  Draws draws(root_key(1));
+  RandomStream draws(root_key(1));
   const std::vector<double> a = {objective.unit_of(0, -6), 0.3}, b = {objective.unit_of(0, 2), 0.3};
   const std::vector<double> merged = merge_parents(objective, numbers, draws, a, b);
   EXPECT_NEAR(objective.value_of(0, merged[0]), -2, 1e-12);

@@ -71,7 +71,7 @@ std::string place_of(const FitOption& option, const Spoiled& spoiled) {
   return fmt::format("run.toml:{}: {}: got ", spoiled.line, option.key);
 }
 
-TEST(FitOptions, FieldsKeysAndOptionsAreOnesOwn) {
+TEST(FitExecution, FieldsKeysAndOptionsAreOnesOwn) {
   std::set<std::string_view> fields, keys, options;
   std::size_t with_option = 0;
   for (const FitOption& option : fit_options()) {
@@ -85,7 +85,7 @@ TEST(FitOptions, FieldsKeysAndOptionsAreOnesOwn) {
   EXPECT_EQ(options.size(), with_option);
 }
 
-TEST(FitOptions, ARowsValueIsReadWhereItWasSetAndNowhereElse) {
+TEST(FitExecution, ARowsValueIsReadWhereItWasSetAndNowhereElse) {
   for (const FitOption& changed : fit_options()) {
     FitRecord record;
     set_value(changed, sample_of(changed).another, record);
@@ -96,7 +96,7 @@ TEST(FitOptions, ARowsValueIsReadWhereItWasSetAndNowhereElse) {
   }
 }
 
-TEST(FitOptions, EachValueSurvivesTheFile) {
+TEST(FitExecution, EachValueSurvivesTheFile) {
   for (const FitOption& option : fit_options()) {
     FitRecord record = whole_record();
     if (option.field == "optimizer") record.optimizer_settings.clear();
@@ -106,7 +106,7 @@ TEST(FitOptions, EachValueSurvivesTheFile) {
   }
 }
 
-TEST(FitOptions, AFileIsToldTheLineAndKeyOfAWrongType) {
+TEST(FitExecution, AFileIsToldTheLineAndKeyOfAWrongType) {
   for (const FitOption& option : fit_options()) {
     if (!is_a_line(option)) continue;
     const Spoiled spoiled = with_value(option, sample_of(option).of_wrong_type);
@@ -116,7 +116,7 @@ TEST(FitOptions, AFileIsToldTheLineAndKeyOfAWrongType) {
   }
 }
 
-TEST(FitOptions, AFileIsToldTheLineAndKeyOfABadValue) {
+TEST(FitExecution, AFileIsToldTheLineAndKeyOfABadValue) {
   int tried = 0;
   for (const FitOption& option : fit_options())
     for (const std::string& bad : sample_of(option).bad) {
@@ -129,7 +129,7 @@ TEST(FitOptions, AFileIsToldTheLineAndKeyOfABadValue) {
   EXPECT_GT(tried, 25);
 }
 
-TEST(FitOptions, AFileIsToldTheLineOfAnUnknownKey) {
+TEST(FitExecution, AFileIsToldTheLineOfAnUnknownKey) {
   for (const FitOption& option : fit_options()) {
     if (!is_a_line(option)) continue;
     Spoiled spoiled = with_value(option, "1");
@@ -142,7 +142,7 @@ TEST(FitOptions, AFileIsToldTheLineOfAnUnknownKey) {
   }
 }
 
-TEST(FitOptions, AFileIsToldOfAMissingKeyUnlessEarlierVersionsHadNone) {
+TEST(FitExecution, AFileIsToldOfAMissingKeyUnlessEarlierVersionsHadNone) {
   for (const FitOption& option : fit_options()) {
     if (!is_a_line(option) || option.is_written) continue;
     Spoiled spoiled = with_value(option, "1");
@@ -154,7 +154,7 @@ TEST(FitOptions, AFileIsToldOfAMissingKeyUnlessEarlierVersionsHadNone) {
   }
 }
 
-TEST(FitOptions, ACallerOfCppIsToldTheField) {
+TEST(FitExecution, ACallerOfCppIsToldTheField) {
   int tried = 0;
   for (const FitOption& option : fit_options()) {
     if (option.lower == -kUnbounded) continue;
@@ -172,7 +172,7 @@ TEST(FitOptions, ACallerOfCppIsToldTheField) {
   EXPECT_GT(tried, 10);
 }
 
-TEST(FitOptions, WordsOfAUserAreReadAsTheFileIs) {
+TEST(FitExecution, WordsOfAUserAreReadAsTheFileIs) {
   for (const FitOption& option : fit_options()) {
     if (!is_a_line(option)) continue;
     FitRecord by_words, by_value;
@@ -183,7 +183,7 @@ TEST(FitOptions, WordsOfAUserAreReadAsTheFileIs) {
   }
 }
 
-TEST(FitOptions, NobodyAsksForWhatIsNone) {
+TEST(FitExecution, NobodyAsksForWhatIsNone) {
   for (const FitOption& option : fit_options())
     if (option.zero_is_none) {
       FitRecord record;
@@ -193,7 +193,7 @@ TEST(FitOptions, NobodyAsksForWhatIsNone) {
     }
 }
 
-TEST(FitOptions, SeedsAreWholeNumbersOfSixtyFourBits) {
+TEST(FitExecution, SeedsAreWholeNumbersOfSixtyFourBits) {
   const FitOption& seed = *find_option("seed");
   FitRecord record;
   set_from_words(seed, {"18446744073709551615"}, record);
@@ -203,7 +203,7 @@ TEST(FitOptions, SeedsAreWholeNumbersOfSixtyFourBits) {
                 HasSubstr("a whole number from 0"));
 }
 
-TEST(FitOptions, FixedParametersAreTakenByNameOfChoiceAndInDecimal) {
+TEST(FitExecution, FixedParametersAreTakenByNameOfChoiceAndInDecimal) {
   const FitOption& fixed = *find_option("search.fixed");
   FitRecord record;
   set_from_words(fixed, {"leaf_shape=ovate", "curve_v=3", "levels=2", "levels=3"}, record);

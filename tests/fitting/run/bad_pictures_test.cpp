@@ -50,7 +50,7 @@ struct Fitted {
 
 Fitted fitted(const std::string& name, const FitRecord& record) {
   Fitted result;
-  FitOptions options;
+  FitExecution options;
   options.on_warning = [&](const std::string& text) { result.warnings.push_back(text); };
   const fs::path run = fresh_folder(name) / "run";
   fit(record, run, options);

@@ -51,13 +51,14 @@ void expect_same_run(const fs::path& a, const fs::path& b) {
 }
 
 /// Options that ask to stop after `batches` batches.
-FitOptions stopping_after(int batches) {
-  FitOptions options;
+FitExecution stopping_after(int batches) {
+  FitExecution options;
   options.stop_requested = [left = batches]() mutable { return left-- <= 0; };
   return options;
 }
 
-std::string error_of_fit(const FitRecord& record, const fs::path& directory, const FitOptions& options = {}) {
+std::string error_of_fit(const FitRecord& record, const fs::path& directory,
+                         const FitExecution& options = {}) {
   try {
     fit(record, directory, options);
   } catch (const InputError& error) {
@@ -112,7 +113,7 @@ TEST(Fit, IsNeverWorseThanItsBestStart) {
 
 TEST(Fit, GivesTheSameBitsForAnyNumberOfThreads) {
   const fs::path one = new_run("one"), two = new_run("two");
-  FitOptions options;
+  FitExecution options;
   options.threads = 1;
   fit(small_record(80), one, options);
   options.threads = 2;
@@ -129,7 +130,7 @@ TEST(Fit, ResumesFromAnyCutOfTheLogToTheUnbrokenRun) {
     fs::copy(unbroken, broken);
     fs::resize_file(broken / "evaluations.bin", bytes);
     for (const char* name : {"best.toml", "trace.csv", "summary.json", "best.png"}) fs::remove(broken / name);
-    FitOptions options;
+    FitExecution options;
     options.resume = true;
     fit(read_record(broken / "run.toml").record, broken, options);
     expect_same_run(broken, unbroken);
@@ -187,7 +188,7 @@ TEST(Fit, OfASpeciesSpaceResumesFromAnyStageToTheUnbrokenRun) {
     const fs::path broken = fresh_folder("space_broken");
     fs::copy(unbroken, broken);
     fs::resize_file(broken / "evaluations.bin", 8 + 16 * evaluations);
-    FitOptions options;
+    FitExecution options;
     options.resume = true;
     options.threads = 1;
     fit(read_record(broken / "run.toml").record, broken, options);
@@ -267,7 +268,7 @@ TEST(Fit, LeavesNoDirectoryBehindBadInput) {
 }
 
 TEST(Fit, RefusesToResumeWhatIsNoRunOrHasAnotherTarget) {
-  FitOptions options;
+  FitExecution options;
   options.resume = true;
   EXPECT_THAT(error_of_fit(small_record(10), fresh_folder("no_run"), options), HasSubstr("run.toml"));
   const fs::path run = new_run("changed");

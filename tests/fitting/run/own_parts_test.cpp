@@ -38,11 +38,12 @@ class Wanderer : public SearchMethod {
 
  private:
   void search(Search& run) const override {
-    for (Draws draws(run.key);;) run.evaluator.evaluate(random_point(run.evaluator.dimension(), draws));
+    for (RandomStream draws(run.key);;)
+      run.evaluator.evaluate(random_point(run.evaluator.dimension(), draws));
   }
 };
 
-std::string error_of(const FitRecord& record, const fs::path& directory, const FitOptions& options) {
+std::string error_of(const FitRecord& record, const fs::path& directory, const FitExecution& options) {
   try {
     fit(record, directory, options);
   } catch (const InputError& error) {
@@ -54,7 +55,7 @@ std::string error_of(const FitRecord& record, const fs::path& directory, const F
 TEST(OwnModel, ItsPresetsHoldTheRowsOfItsTable) {
   const fs::path folder = fresh_folder("own_model");
   const PoleModel pole;
-  FitOptions options;
+  FitExecution options;
   options.model = &pole;
   const FitResult result = fit(pole_record(folder, 200), folder / "run", options);
   EXPECT_GT(result.metrics["iou"], 0.9);
@@ -68,7 +69,7 @@ TEST(OwnModel, ItsPresetsHoldTheRowsOfItsTable) {
 TEST(OwnOptimizer, OneOfTheTableFitsAsItDoesByName) {
   const fs::path folder = fresh_folder("table_optimizer");
   const PoleModel pole;
-  FitOptions options;
+  FitExecution options;
   options.model = &pole;
   FitRecord by_name = pole_record(folder, 60);
   by_name.optimizer = "random_search";
@@ -83,7 +84,7 @@ TEST(OwnOptimizer, ARunOfItIsGoneOnWithAsIfUnbroken) {
   const fs::path folder = fresh_folder("own_optimizer");
   const PoleModel pole;
   const Wanderer wanderer;
-  FitOptions options;
+  FitExecution options;
   options.model = &pole;
   options.optimizer = &wanderer;
   fit(pole_record(folder, 60), folder / "whole", options);
@@ -99,7 +100,7 @@ TEST(OwnOptimizer, WhoDoesNotHaveItIsToldItsName) {
   const fs::path folder = fresh_folder("wanderer");
   const PoleModel pole;
   const Wanderer wanderer;
-  FitOptions options;
+  FitExecution options;
   options.model = &pole;
   options.optimizer = &wanderer;
   fit(pole_record(folder, 20), folder / "run", options);
@@ -115,7 +116,7 @@ TEST(OwnOptimizer, ItsSettingsAreCheckedBeforeAnythingIsWritten) {
   const fs::path folder = fresh_folder("own_settings");
   const PoleModel pole;
   const Wanderer wanderer;
-  FitOptions options;
+  FitExecution options;
   options.model = &pole;
   options.optimizer = &wanderer;
   FitRecord record = pole_record(folder, 20);

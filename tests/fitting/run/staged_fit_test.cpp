@@ -124,7 +124,7 @@ TEST(StagedFit, ResumedItIsTheUnbrokenRun) {
   const fs::path unbroken = new_run("staged_unbroken"), broken = new_run("staged_broken");
   fit(staged_record(3), unbroken);
   fit(staged_record(1), broken);
-  FitOptions options;
+  FitExecution options;
   options.resume = true;
   fit(staged_record(3), broken, options);
   EXPECT_EQ(read_text_file(broken / "best.toml"), read_text_file(unbroken / "best.toml"));
@@ -145,7 +145,7 @@ TEST(StagedFit, ResumedInItsFinishItIsTheUnbrokenRun) {
   const fs::path unbroken = new_run("finish_unbroken"), broken = new_run("finish_broken");
   fit(finished_record(5), unbroken);
   fit(finished_record(4), broken);
-  FitOptions options;
+  FitExecution options;
   options.resume = true;
   fit(finished_record(5), broken, options);
   EXPECT_EQ(read_text_file(broken / "best.toml"), read_text_file(unbroken / "best.toml"));
@@ -210,7 +210,7 @@ TEST(StagedFit, ResumedWithALongerSearchItRefinesWhatThatFinds) {
   longer.budget.evaluations = 90;
   fit(longer, unbroken);
   fit(staged_record(1), broken);
-  FitOptions options;
+  FitExecution options;
   options.resume = true;
   fit(longer, broken, options);
   EXPECT_EQ(read_text_file(broken / "best.toml"), read_text_file(unbroken / "best.toml"));
@@ -218,7 +218,7 @@ TEST(StagedFit, ResumedWithALongerSearchItRefinesWhatThatFinds) {
 
 TEST(StagedFit, ThreadsDoNotChangeIt) {
   const fs::path one = new_run("staged_one"), two = new_run("staged_two");
-  FitOptions options;
+  FitExecution options;
   options.threads = 1;
   fit(staged_record(2), one, options);
   options.threads = 2;

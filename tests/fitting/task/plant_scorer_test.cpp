@@ -91,7 +91,7 @@ TEST(PlantScorer, OnceForgivingACandidateThatFailsIsTheWorstAndTheFirstReasonIsK
   std::vector<double> scores(poles.size());
   EXPECT_THROW(scorer.score(poles, scores), InputError);
   EXPECT_EQ(scorer.failures().count, 0);
-  scorer.forgive_failures();
+  scorer.score_failures_as_worst();
   scorer.score(poles, scores);
   for (std::size_t i = 0; i < scores.size(); ++i) EXPECT_EQ(scores[i] == kFailedCandidate, i == 3 || i == 17);
   EXPECT_GT(kFailedCandidate, over_budget_penalty(1e300));

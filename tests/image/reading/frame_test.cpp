@@ -25,7 +25,7 @@ struct Box {
   int left = 1 << 30, top = 1 << 30, right = 0, bottom = 0;  ///< ends exclusive
 };
 
-Box box_of(const Mask& mask) {
+Box pixel_box_of(const Mask& mask) {
   Box box;
   for (int y = 0; y < mask.height_px(); ++y)
     for (int x = 0; x < mask.width_px(); ++x) {
@@ -38,7 +38,7 @@ Box box_of(const Mask& mask) {
 TEST(Frame, TallTreesTake92PercentOfTheHeight) {
   for (const int size : {64, 128, 256, 512}) {
     const TargetPicture framed = frame_mask(rectangle(300, 100, 50, 110, 250), size);
-    const Box box = box_of(framed.mask);
+    const Box box = pixel_box_of(framed.mask);
     EXPECT_NEAR(framed.tree_height_px, 0.92f * size, 1e-3f);
     EXPECT_NEAR(box.bottom - box.top, 0.92 * size, 1.0);
     EXPECT_NEAR(box.bottom, base_row_px(size), 0.51);
@@ -50,7 +50,7 @@ TEST(Frame, WideTreesTake48PercentToTheFartherSide) {
   Mask mask = rectangle(300, 20, 100, 180, 140);  // a crown that reaches 130 px to the left
   for (int y = 140; y < 200; ++y)
     for (int x = 148; x < 152; ++x) mask.set(x, y);  // of its trunk, and 30 px to the right
-  const Box box = box_of(frame_mask(mask, 256).mask);
+  const Box box = pixel_box_of(frame_mask(mask, 256).mask);
   EXPECT_NEAR(box.left, 128 - 0.48 * 256, 1.0);
   EXPECT_NEAR(box.right, 128 + 0.48 * 256 * 30 / 130, 1.0);
 }
@@ -62,7 +62,7 @@ RC_GTEST_PROP(Frame, TheWholeTreeLiesInTheFrame, ()) {
   RC_PRE(area_px(mask) > 20);
   const int size = *rc::gen::inRange(32, 300);
   const Mask framed = frame_mask(mask, size).mask;
-  const Box box = box_of(framed);
+  const Box box = pixel_box_of(framed);
   RC_ASSERT(box.left >= 0.02 * size - 1 && box.right <= 0.98 * size + 1);
   RC_ASSERT(box.bottom <= base_row_px(size) + 1);
   RC_ASSERT(box.top >= base_row_px(size) - 0.92 * size - 1);

@@ -17,10 +17,10 @@ class Programs : public testing::Test {
  protected:
   Programs()
       : grammar_(parse_grammar("const g = 3\nlet twice(a) = a + a\naxiom: A\n", "test.lsys")),
-        workshop_(grammar_, {}) {
-    for (const LuaCode& code : grammar_.lua) workshop_.lua.run(code.text, code.label);
-    workshop_.globals = {3, 0};
-    workshop_.lua.set_global("g", 3);
+        shared_(grammar_, {}) {
+    for (const LuaCode& code : grammar_.lua) shared_.lua.run(code.text, code.label);
+    shared_.globals = {3, 0};
+    shared_.lua.set_global("g", 3);
     for (const double a : kValues)
       for (const double b : kValues) {
         x_.push_back(a);
@@ -31,16 +31,15 @@ class Programs : public testing::Test {
   /// Both results for all pairs of values.
   void expect_same(const std::string& text, bool is_condition) {
     SCOPED_TRACE(text);
-    const auto program = compile_program(text, kColumns, grammar_.names, workshop_.random_sites);
+    const auto program = compile_program(text, kColumns, grammar_.names, shared_.random_sites);
     ASSERT_TRUE(program.has_value());
     ASSERT_EQ(program->is_condition, is_condition);
     const std::vector<Column> columns{{x_.data(), 1}, {y_.data(), 1}};
     std::vector<double> scratch, from_lua(x_.size());
-    const Column ours =
-        run_program(*program, {columns, workshop_.globals.data(), nullptr, x_.size()}, scratch);
+    const Column ours = run_program(*program, {columns, shared_.globals.data(), nullptr, x_.size()}, scratch);
     const Expression expression{text, {}};
-    const auto function = workshop_.functions.compile(expression, kColumns, is_condition);
-    workshop_.functions.evaluate(function, columns, nullptr, x_.size(), from_lua.data());
+    const auto function = shared_.functions.compile(expression, kColumns, is_condition);
+    shared_.functions.evaluate(function, columns, nullptr, x_.size(), from_lua.data());
     for (std::size_t i = 0; i < x_.size(); ++i) {
       const bool same = ours[i] == from_lua[i] || (std::isnan(ours[i]) && std::isnan(from_lua[i]));
       EXPECT_TRUE(same) << x_[i] << ", " << y_[i] << ": " << ours[i] << ", Lua " << from_lua[i];
@@ -48,7 +47,7 @@ class Programs : public testing::Test {
   }
 
   Grammar grammar_;
-  Workshop workshop_;
+  RuleContext shared_;
   std::vector<double> x_, y_;
 };
 
@@ -90,11 +89,11 @@ TEST_F(Programs, DecideConditionsAsLuaDoes) {
 TEST_F(Programs, LeaveTheRestToLua) {
   for (const char* text : {"unknown(x)", "x..y", "#x", "{x}", "x == true", "(x < 1) + 1", "x < 1 and y",
                            "\"a\"", "x +", "f(x)[1]"})
-    EXPECT_FALSE(compile_program(text, kColumns, grammar_.names, workshop_.random_sites).has_value()) << text;
+    EXPECT_FALSE(compile_program(text, kColumns, grammar_.names, shared_.random_sites).has_value()) << text;
 }
 
 TEST_F(Programs, DrawUniformNumbersByKeyAndPlace) {
-  const auto program = compile_program("random()", kColumns, grammar_.names, workshop_.random_sites);
+  const auto program = compile_program("random()", kColumns, grammar_.names, shared_.random_sites);
   ASSERT_TRUE(program.has_value());
   std::vector<RandomKey> keys;
   for (std::uint64_t i = 0; i < kBlockSize; ++i) keys.push_back(child_key(root_key(1), i));

@@ -107,7 +107,7 @@ TEST(LeafBatch, PlacesWhatThePlainFormulasPlace) {
   EXPECT_TRUE(rc::check([] {
     const WeberPennParameters p = any_leaf_parameters();
     const GrowingStem stem = any_stem();
-    RC_ASSERT(LeafBatch::takes(stem, p));
+    RC_ASSERT(LeafBatch::supports(stem, p));
     BothWays both(stem, p);
     walk_stem(stem, p, both);
     both.finish();

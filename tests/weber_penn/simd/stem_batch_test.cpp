@@ -57,7 +57,7 @@ TEST(StemBatch, WalksAsStemsAloneDo) {
     const int level = *rc::gen::inRange(0, 4);
     const WeberPennParameters p = any_parameters(level);
     const std::vector<GrowingStem> stems = any_stems(level);
-    RC_ASSERT(StemBatch::takes(level, p));
+    RC_ASSERT(StemBatch::supports(level, p));
     StemBatch batch;
     batch.walk(stems, p);
     for (std::size_t i = 0; i < stems.size(); ++i) {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include <espalier/fitting/certainty/solution_archive.h>
-#include <espalier/fitting/optimizers/draws.h>
+#include <espalier/fitting/identifiability/solution_archive.h>
+#include <espalier/fitting/optimizers/random_stream.h>
 
 namespace espalier {
 namespace {
@@ -25,14 +25,14 @@ double bowl(const ParameterValues& x) {
   return sum;
 }
 
-ParameterValues drawn(Draws& draws) {
+ParameterValues drawn(RandomStream& draws) {
   ParameterValues x(kDimension);
   for (double& coordinate : x) coordinate = draws.uniform();
   return x;
 }
 
 RC_GTEST_PROP(SolutionArchive, HoldsTheBestAndNothingMuchWorseNorAlike, ()) {
-  Draws draws(root_key(*rc::gen::inRange<Seed>(0, 1000)));
+  RandomStream draws(root_key(*rc::gen::inRange<Seed>(0, 1000)));
   SolutionArchive archive(box());
   double best = 1e9;
   for (int i = 0; i < 3000; ++i) {
@@ -49,7 +49,7 @@ RC_GTEST_PROP(SolutionArchive, HoldsTheBestAndNothingMuchWorseNorAlike, ()) {
 }
 
 TEST(SolutionArchive, SpreadsWhereTheScoreIsFlat) {
-  Draws draws(root_key(1));
+  RandomStream draws(root_key(1));
   SolutionArchive archive(box());
   for (int i = 0; i < 20000; ++i) {
     const ParameterValues x = drawn(draws);

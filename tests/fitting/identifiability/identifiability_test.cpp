@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <espalier/core/error.h>
-#include <espalier/fitting/certainty/certainty.h>
-#include <espalier/fitting/certainty/certainty_files.h>
+#include <espalier/fitting/identifiability/identifiability.h>
+#include <espalier/fitting/identifiability/identifiability_files.h>
 #include <espalier/fitting/run/fit.h>
 #include <espalier/models/preset.h>
 
@@ -37,14 +37,14 @@ SolutionArchive archive_at_the_bottom() {
   return archive;
 }
 
-TEST(Certainty, TellsWhatTheScoreDeterminesFromWhatItDoesNot) {
+TEST(Identifiability, TellsWhatTheScoreDeterminesFromWhatItDoesNot) {
   Valley valley;
   SolutionArchive archive = archive_at_the_bottom();
-  const CertaintyReport report = measure_certainty(archive, valley, 300, 1);
+  const IdentifiabilityReport report = measure_identifiability(archive, valley, 300, 1);
   ASSERT_EQ(report.parameters.size(), 3u);
-  EXPECT_EQ(report.parameters[0].certainty, Certainty::determined);
-  EXPECT_EQ(report.parameters[1].certainty, Certainty::open);
-  EXPECT_EQ(report.parameters[2].certainty, Certainty::no_effect);
+  EXPECT_EQ(report.parameters[0].identifiability, Identifiability::determined);
+  EXPECT_EQ(report.parameters[1].identifiability, Identifiability::open);
+  EXPECT_EQ(report.parameters[2].identifiability, Identifiability::no_effect);
   EXPECT_NEAR(*report.parameters[0].rise_above, 20 * 0.01, 1e-12);
   EXPECT_NEAR(*report.parameters[1].rise_below, 0.01 * 0.01, 1e-12);
   EXPECT_LT(report.parameters[0].spread, 0.1);
@@ -52,11 +52,11 @@ TEST(Certainty, TellsWhatTheScoreDeterminesFromWhatItDoesNot) {
   EXPECT_EQ(archive.solutions().front().score, 0.1);
 }
 
-TEST(Certainty, KeepsToItsEvaluations) {
+TEST(Identifiability, KeepsToItsEvaluations) {
   for (const long allowed : {0, 5, 6, 7, 50, 100'000}) {
     Valley valley;
     SolutionArchive archive = archive_at_the_bottom();
-    const CertaintyReport report = measure_certainty(archive, valley, allowed, 1);
+    const IdentifiabilityReport report = measure_identifiability(archive, valley, allowed, 1);
     EXPECT_LE(valley.scored, allowed);
     EXPECT_LE(valley.scored, 250);
     EXPECT_EQ(report.evaluations, valley.scored);
@@ -64,11 +64,11 @@ TEST(Certainty, KeepsToItsEvaluations) {
   }
 }
 
-TEST(Certainty, WhereTheRangeEndsThereIsNoStep) {
+TEST(Identifiability, WhereTheRangeEndsThereIsNoStep) {
   Valley valley;
   SolutionArchive archive(archive_at_the_bottom().space());
   archive.offer({0.5, 0, 1}, 0.1025);
-  const CertaintyReport report = measure_certainty(archive, valley, 6, 1);
+  const IdentifiabilityReport report = measure_identifiability(archive, valley, 6, 1);
   EXPECT_FALSE(report.parameters[1].rise_below.has_value());
   EXPECT_TRUE(report.parameters[1].rise_above.has_value());
   EXPECT_FALSE(report.parameters[2].rise_above.has_value());
@@ -85,7 +85,7 @@ FitRecord small_record() {
   return record;
 }
 
-fs::path run_of(const std::string& name, const FitRecord& record, FitOptions options = {}) {
+fs::path run_of(const std::string& name, const FitRecord& record, FitExecution options = {}) {
   const fs::path run = options.resume ? fs::path(name) : fresh_folder(name) / "run";
   fit(record, run, options);
   return run;
@@ -97,8 +97,8 @@ std::string everything(const fs::path& run) {
   return text;
 }
 
-TEST(Certainty, ARunLeavesItsArchiveAsPresetsAndItsParametersAsATable) {
-  const fs::path run = run_of("certainty_files", small_record());
+TEST(Identifiability, ARunLeavesItsArchiveAsPresetsAndItsParametersAsATable) {
+  const fs::path run = run_of("identifiability_files", small_record());
   const auto summary = nlohmann::json::parse(read_text_file(run / "summary.json"));
   ASSERT_GT(summary["archive"].size(), 1u);
   EXPECT_EQ(summary["archive"][0]["distance"], 0);
@@ -114,28 +114,28 @@ TEST(Certainty, ARunLeavesItsArchiveAsPresetsAndItsParametersAsATable) {
   EXPECT_THAT(read_text_file(run / "parameters.svg"), testing::HasSubstr(">base_size[0]</text>"));
 }
 
-TEST(Certainty, AnArchivedTreeOfATrainedRunGrowsIntoTheSameOutline) {
+TEST(Identifiability, AnArchivedTreeOfATrainedRunGrowsIntoTheSameOutline) {
   FitRecord record = small_record();
   record.train_to_target = true;
-  const fs::path run = run_of("certainty_trained", record);
+  const fs::path run = run_of("identifiability_trained", record);
   const Preset archived = load_preset((run / "archive/1.toml").string());
   ASSERT_EQ(archived.grown_into.size(), 1u);
   EXPECT_NE(envelope_of(archived.grown_into), nullptr);
   EXPECT_EQ(read_text_file(run / "archive/outline.png"), read_text_file(run / "outline.png"));
 }
 
-TEST(Certainty, NeitherThreadsNorABreakChangeIt) {
-  const std::string unbroken = everything(run_of("certainty_one", small_record(), {.threads = 1}));
-  EXPECT_EQ(everything(run_of("certainty_two", small_record(), {.threads = 2})), unbroken);
+TEST(Identifiability, NeitherThreadsNorABreakChangeIt) {
+  const std::string unbroken = everything(run_of("identifiability_one", small_record(), {.threads = 1}));
+  EXPECT_EQ(everything(run_of("identifiability_two", small_record(), {.threads = 2})), unbroken);
   FitRecord shorter = small_record();
   shorter.budget.evaluations = 130;
-  const fs::path broken = run_of("certainty_broken", shorter);
+  const fs::path broken = run_of("identifiability_broken", shorter);
   run_of(broken, small_record(), {.resume = true});
   EXPECT_EQ(everything(broken), unbroken);
 }
 
-TEST(Certainty, AnArchiveThatShrinksLeavesNoFileBehind) {
-  const fs::path run = run_of("certainty_stale", small_record());
+TEST(Identifiability, AnArchiveThatShrinksLeavesNoFileBehind) {
+  const fs::path run = run_of("identifiability_stale", small_record());
   std::ofstream(run / "archive" / "9.toml") << "stale";
   for (int i = 1; i < 9; ++i) {
     const fs::path file = run / "archive" / (std::to_string(i) + ".toml");
@@ -147,10 +147,10 @@ TEST(Certainty, AnArchiveThatShrinksLeavesNoFileBehind) {
   EXPECT_EQ(static_cast<std::size_t>(files), summary["archive"].size());
 }
 
-TEST(Certainty, IsNoPartOfATooShortRun) {
+TEST(Identifiability, IsNoPartOfATooShortRun) {
   FitRecord record = small_record();
   record.budget.evaluations = 60;
-  const fs::path run = run_of("certainty_short", record);
+  const fs::path run = run_of("identifiability_short", record);
   EXPECT_FALSE(fs::exists(run / "parameters.csv"));
   EXPECT_TRUE(fs::exists(run / "archive" / "1.toml"));
 }

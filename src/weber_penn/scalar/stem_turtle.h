@@ -23,7 +23,7 @@ inline float declination_deg(Vec3 forward) {
 }
 
 /// Turns do not round the frame back to unit length: whoever makes many calls renormalize().
-struct Turtle {
+struct StemTurtle {
   Vec3 position_m;
   Vec3 forward{0, 0, 1}, right{1, 0, 0};
 

@@ -12,9 +12,9 @@
 namespace espalier {
 
 /// Consecutive draws at one place of a search. Copying it repeats the draws.
-class Draws {
+class RandomStream {
  public:
-  explicit Draws(RandomKey key) : key_(key) {}
+  explicit RandomStream(RandomKey key) : key_(key) {}
 
   std::uint64_t bits() { return random_bits(key_, kPurpose, next_++); }
 
@@ -44,8 +44,8 @@ class Draws {
 };
 
 /// The draws of individual `index` in generation (or batch) `generation`.
-inline Draws draws_at(RandomKey key, std::uint64_t generation, std::uint64_t index) {
-  return Draws(child_key(child_key(key, generation), index));
+inline RandomStream random_stream_at(RandomKey key, std::uint64_t generation, std::uint64_t index) {
+  return RandomStream(child_key(child_key(key, generation), index));
 }
 
 }  // namespace espalier

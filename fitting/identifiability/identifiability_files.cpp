@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include <espalier/core/files.h>
-#include <espalier/fitting/certainty/certainty_files.h>
+#include <espalier/fitting/identifiability/identifiability_files.h>
 
 namespace espalier {
 
@@ -13,13 +13,13 @@ namespace {
 
 std::string cell(const std::optional<double>& number) { return number ? fmt::format("{:.6g}", *number) : ""; }
 
-/// Rows as the chart shows them: by certainty, then by what the cheaper step costs, then by spread.
-std::vector<std::size_t> most_certain_first(const CertaintyReport& report) {
+/// Rows as the chart shows them: by identifiability, then by what the cheaper step costs, then by spread.
+std::vector<std::size_t> best_identified_first(const IdentifiabilityReport& report) {
   std::vector<std::size_t> order(report.parameters.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto before = [&](std::size_t i, std::size_t j) {
-    const ParameterCertainty &a = report.parameters[i], &b = report.parameters[j];
-    if (a.certainty != b.certainty) return a.certainty < b.certainty;
+    const ParameterIdentifiability &a = report.parameters[i], &b = report.parameters[j];
+    if (a.identifiability != b.identifiability) return a.identifiability < b.identifiability;
     if (a.least_rise() != b.least_rise()) return a.least_rise() > b.least_rise();
     return a.spread < b.spread;
   };
@@ -27,10 +27,11 @@ std::vector<std::size_t> most_certain_first(const CertaintyReport& report) {
   return order;
 }
 
-std::vector<std::string> names_of(const CertaintyReport& report, Certainty certainty) {
+std::vector<std::string> names_of(const IdentifiabilityReport& report, Identifiability identifiability) {
   std::vector<std::string> names;
-  for (const std::size_t i : most_certain_first(report))
-    if (report.parameters[i].certainty == certainty) names.push_back(report.parameters[i].parameter.name);
+  for (const std::size_t i : best_identified_first(report))
+    if (report.parameters[i].identifiability == identifiability)
+      names.push_back(report.parameters[i].parameter.name);
   return names;
 }
 
@@ -50,9 +51,9 @@ constexpr float kRightPx = 130;
 constexpr Rgb kTrack{225, 225, 225}, kSpread{158, 202, 225}, kDot{0, 114, 178}, kBest{20, 20, 20},
     kRise{213, 94, 0}, kLimit{150, 150, 150};
 
-float widest_name_px(const CertaintyReport& report) {
+float widest_name_px(const IdentifiabilityReport& report) {
   float widest = 0;
-  for (const ParameterCertainty& row : report.parameters)
+  for (const ParameterIdentifiability& row : report.parameters)
     widest = std::max(widest, text_width_px(row.parameter.name));
   return widest;
 }
@@ -68,9 +69,9 @@ struct Columns {
   }
 };
 
-Columns columns_of(const CertaintyReport& report) {
+Columns columns_of(const IdentifiabilityReport& report) {
   double most = report.tolerance;
-  for (const ParameterCertainty& row : report.parameters)
+  for (const ParameterIdentifiability& row : report.parameters)
     most = std::max({most, row.rise_below.value_or(0), row.rise_above.value_or(0)});
   const float range = 20 + widest_name_px(report) + 14, rise = range + kRangePx + kGapPx;
   const float words = rise + kRisePx + kGapPx;
@@ -96,7 +97,7 @@ void add_range(const Columns& columns, const SolutionArchive& archive, std::size
 }
 
 /// A step up above the line, one down below it.
-void add_rises(const Columns& columns, const ParameterCertainty& row, float y, ChartLayout& layout) {
+void add_rises(const Columns& columns, const ParameterIdentifiability& row, float y, ChartLayout& layout) {
   const auto add = [&](const std::optional<double>& rise, float offset_px) {
     if (rise && *rise > 0)
       add_line({columns.rise_px, y + offset_px}, {columns.in_rise(*rise), y + offset_px}, kRise, 5, layout);
@@ -104,7 +105,8 @@ void add_rises(const Columns& columns, const ParameterCertainty& row, float y, C
   add(row.rise_above, -3.5f), add(row.rise_below, 3.5f);
 }
 
-void add_heads(const CertaintyReport& report, const Columns& columns, float bottom_px, ChartLayout& layout) {
+void add_heads(const IdentifiabilityReport& report, const Columns& columns, float bottom_px,
+               ChartLayout& layout) {
   layout.labels.push_back({{20, 18},
                            "Which parameters the picture determines (black: the best, blue: others as good)",
                            TextAnchor::start});
@@ -123,48 +125,52 @@ void add_heads(const CertaintyReport& report, const Columns& columns, float bott
 
 }  // namespace
 
-std::string certainty_to_csv(const CertaintyReport& report) {
+std::string identifiability_to_csv(const IdentifiabilityReport& report) {
   std::string csv =
       "parameter,lower,upper,best,archive_lowest,archive_highest,spread,rise_of_step_down,rise_of_step_up,"
-      "certainty\n";
-  for (const ParameterCertainty& row : report.parameters)
-    csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4f},{},{},{}\n", row.parameter.name,
-                       row.parameter.lower, row.parameter.upper, row.best, row.lowest, row.highest,
-                       row.spread, cell(row.rise_below), cell(row.rise_above), certainty_name(row.certainty));
+      "identifiability\n";
+  for (const ParameterIdentifiability& row : report.parameters)
+    csv +=
+        fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4f},{},{},{}\n", row.parameter.name,
+                    row.parameter.lower, row.parameter.upper, row.best, row.lowest, row.highest, row.spread,
+                    cell(row.rise_below), cell(row.rise_above), identifiability_name(row.identifiability));
   return csv;
 }
 
-CertaintyChart draw_certainty(const CertaintyReport& report, const SolutionArchive& archive) {
+IdentifiabilityChart draw_identifiability(const IdentifiabilityReport& report,
+                                          const SolutionArchive& archive) {
   const Columns columns = columns_of(report);
   const float bottom_px = kTopPx + kRowPx * static_cast<float>(report.parameters.size());
-  CertaintyChart chart{{}, static_cast<int>(columns.right_px), static_cast<int>(bottom_px + kBottomPx)};
+  IdentifiabilityChart chart{{}, static_cast<int>(columns.right_px), static_cast<int>(bottom_px + kBottomPx)};
   add_heads(report, columns, bottom_px, chart.layout);
   float y = kTopPx + kRowPx / 2;
-  for (const std::size_t i : most_certain_first(report)) {
-    const ParameterCertainty& row = report.parameters[i];
+  for (const std::size_t i : best_identified_first(report)) {
+    const ParameterIdentifiability& row = report.parameters[i];
     chart.layout.labels.push_back({{columns.range_px - 14, y}, row.parameter.name, TextAnchor::end});
     add_range(columns, archive, i, y, chart.layout);
     add_rises(columns, row, y, chart.layout);
-    chart.layout.labels.push_back({{columns.words_px, y}, certainty_name(row.certainty), TextAnchor::start});
+    chart.layout.labels.push_back(
+        {{columns.words_px, y}, identifiability_name(row.identifiability), TextAnchor::start});
     y += kRowPx;
   }
   return chart;
 }
 
-void write_certainty(const std::filesystem::path& directory, const CertaintyReport& report,
-                     const SolutionArchive& archive) {
+void write_identifiability(const std::filesystem::path& directory, const IdentifiabilityReport& report,
+                           const SolutionArchive& archive) {
   if (report.parameters.empty()) return;
-  const CertaintyChart chart = draw_certainty(report, archive);
-  write_file_atomically(directory / "parameters.csv", certainty_to_csv(report));
+  const IdentifiabilityChart chart = draw_identifiability(report, archive);
+  write_file_atomically(directory / "parameters.csv", identifiability_to_csv(report));
   write_file_atomically(directory / "parameters.svg",
                         layout_to_svg(chart.layout, chart.width_px, chart.height_px));
   write_png(directory / "parameters.png", layout_to_picture(chart.layout, chart.width_px, chart.height_px));
 }
 
-std::string certainty_in_words(const CertaintyReport& report, const SolutionArchive& archive) {
+std::string identifiability_in_words(const IdentifiabilityReport& report, const SolutionArchive& archive) {
   if (report.parameters.empty()) return "";
-  const auto determined = names_of(report, Certainty::determined), open = names_of(report, Certainty::open),
-             idle = names_of(report, Certainty::no_effect);
+  const auto determined = names_of(report, Identifiability::determined),
+             open = names_of(report, Identifiability::open),
+             idle = names_of(report, Identifiability::no_effect);
   std::string text =
       fmt::format("the picture determines {} of {} parameters", determined.size(), report.parameters.size());
   if (!determined.empty()) text += fmt::format(" ({})", some(determined));

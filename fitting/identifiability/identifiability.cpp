@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <espalier/fitting/certainty/certainty.h>
-#include <espalier/fitting/optimizers/draws.h>
+#include <espalier/fitting/identifiability/identifiability.h>
+#include <espalier/fitting/optimizers/random_stream.h>
 
 namespace espalier {
 
@@ -40,13 +40,13 @@ class Measurement {
  public:
   Measurement(SolutionArchive& archive, Scorer& scorer) : archive_(archive), scorer_(scorer) {}
 
-  CertaintyReport report(long allowed, Seed seed) {
+  IdentifiabilityReport report(long allowed, Seed seed) {
     take_steps();
     const long probes = std::min(kMostProbes, allowed - evaluations_);
     for (long first = 0; first < probes; first += static_cast<long>(kProbesAtOnce))
-      look_elsewhere(draws_at(root_key(seed), 1, static_cast<std::uint64_t>(first)),
+      look_elsewhere(random_stream_at(root_key(seed), 1, static_cast<std::uint64_t>(first)),
                      std::min(kProbesAtOnce, static_cast<std::size_t>(probes - first)));
-    for (ParameterCertainty& row : rows_) describe(row);
+    for (ParameterIdentifiability& row : rows_) describe(row);
     return {rows_, archive_.tolerance(), evaluations_};
   }
 
@@ -84,7 +84,7 @@ class Measurement {
 
   /// Several parameters at once, each the further the less its steps cost: the rise is taken to grow as the
   /// square of the way, and the sum of all to stay about within the tolerance.
-  void look_elsewhere(Draws draws, std::size_t count) {
+  void look_elsewhere(RandomStream draws, std::size_t count) {
     std::vector<ParameterValues> candidates;
     for (std::size_t i = 0; i < count; ++i) {
       const ArchivedSolution& from = archive_.solutions()[draws.below(archive_.solutions().size())];
@@ -102,7 +102,7 @@ class Measurement {
     score(candidates);
   }
 
-  void describe(ParameterCertainty& row) const {
+  void describe(ParameterIdentifiability& row) const {
     const auto index = static_cast<std::size_t>(&row - rows_.data());
     double least = 1, most = 0;
     row.lowest = INFINITY, row.highest = -INFINITY;
@@ -112,35 +112,36 @@ class Measurement {
       row.highest = std::max(row.highest, solution.values[row.parameter.row]);
     }
     row.spread = most - least;
-    row.certainty = judge(row);
+    row.identifiability = judge(row);
   }
 
-  Certainty judge(const ParameterCertainty& row) const {
-    if (row.rise_below.value_or(0) == 0 && row.rise_above.value_or(0) == 0) return Certainty::no_effect;
+  Identifiability judge(const ParameterIdentifiability& row) const {
+    if (row.rise_below.value_or(0) == 0 && row.rise_above.value_or(0) == 0) return Identifiability::no_effect;
     const double steps = row.least_rise() / archive_.tolerance();
-    if (row.spread >= kWide || steps < kCheap) return Certainty::open;
-    return row.spread <= kNarrow && steps >= 1 ? Certainty::determined : Certainty::partly;
+    if (row.spread >= kWide || steps < kCheap) return Identifiability::open;
+    return row.spread <= kNarrow && steps >= 1 ? Identifiability::determined : Identifiability::partly;
   }
 
   SolutionArchive& archive_;
   Scorer& scorer_;
-  std::vector<ParameterCertainty> rows_;
+  std::vector<ParameterIdentifiability> rows_;
   long evaluations_ = 0;
 };
 
 }  // namespace
 
-std::string certainty_name(Certainty certainty) {
+std::string identifiability_name(Identifiability identifiability) {
   constexpr const char* kNames[] = {"determined", "partly", "open", "no effect"};
-  return kNames[static_cast<std::size_t>(certainty)];
+  return kNames[static_cast<std::size_t>(identifiability)];
 }
 
-double ParameterCertainty::least_rise() const {
+double ParameterIdentifiability::least_rise() const {
   const double least = std::min(rise_below.value_or(INFINITY), rise_above.value_or(INFINITY));
   return std::isfinite(least) ? least : 0;
 }
 
-CertaintyReport measure_certainty(SolutionArchive& archive, Scorer& scorer, long allowed, Seed seed) {
+IdentifiabilityReport measure_identifiability(SolutionArchive& archive, Scorer& scorer, long allowed,
+                                              Seed seed) {
   const auto steps = static_cast<long>(2 * archive.space().dimension());
   if (archive.solutions().empty() || steps > allowed) return {};
   return Measurement(archive, scorer).report(allowed, seed);
