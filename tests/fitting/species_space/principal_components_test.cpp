@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 Gaps no_gaps(const Eigen::MatrixXd& rows) { return Gaps::Constant(rows.rows(), rows.cols(), true); }
 
-std::string error_of(const Eigen::MatrixXd& rows, int count) {
+std::string analysis_error(const Eigen::MatrixXd& rows, int count) {
   try {
     principal_components(rows, no_gaps(rows), count);
   } catch (const InputError& error) {
@@ -81,11 +81,11 @@ TEST(PrincipalComponents, AConstantColumnIsCarriedAsItIs) {
 }
 
 TEST(PrincipalComponents, RefuseWhatSpansNothing) {
-  EXPECT_THAT(error_of(Eigen::MatrixXd{{1, 2}}, 1), HasSubstr("got 1, expected at least 2"));
-  EXPECT_THAT(error_of(Eigen::MatrixXd{{1, 2}, {1, 2}, {1, 2}}, 1),
+  EXPECT_THAT(analysis_error(Eigen::MatrixXd{{1, 2}}, 1), HasSubstr("got 1, expected at least 2"));
+  EXPECT_THAT(analysis_error(Eigen::MatrixXd{{1, 2}, {1, 2}, {1, 2}}, 1),
               HasSubstr("the same values in all columns"));
-  EXPECT_THAT(error_of(Eigen::MatrixXd{{1, 2}, {2, 1}}, 2), HasSubstr("got 2, expected 1 … 1"));
-  EXPECT_THAT(error_of(Eigen::MatrixXd{{1, 2}, {2, 1}}, 0), HasSubstr("got 0"));
+  EXPECT_THAT(analysis_error(Eigen::MatrixXd{{1, 2}, {2, 1}}, 2), HasSubstr("got 2, expected 1 … 1"));
+  EXPECT_THAT(analysis_error(Eigen::MatrixXd{{1, 2}, {2, 1}}, 0), HasSubstr("got 0"));
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ bool row_means(const Encoding& encoding, const EncodedValues& encoded, std::size
   return means || !has_columns;
 }
 
-std::string error_of(const std::vector<Preset>& presets, int components) {
+std::string space_error(const std::vector<Preset>& presets, int components) {
   try {
     make_species_space(presets, "monotone", components);
   } catch (const InputError& error) {
@@ -127,12 +127,12 @@ TEST(SpeciesSpace, TheFileKeepsEveryBit) {
 
 TEST(SpeciesSpace, RefusesPresetsThatSpanNothing) {
   const Preset aspen = load_preset("quaking_aspen"), birch = load_preset("silver_birch");
-  EXPECT_THAT(error_of({aspen}, 1), HasSubstr("got 1, expected at least 2"));
-  EXPECT_THAT(error_of({aspen, aspen}, 1), HasSubstr("the same values"));
-  EXPECT_THAT(error_of({aspen, birch}, 2), HasSubstr("components: got 2, expected 1 … 1"));
+  EXPECT_THAT(space_error({aspen}, 1), HasSubstr("got 1, expected at least 2"));
+  EXPECT_THAT(space_error({aspen, aspen}, 1), HasSubstr("the same values"));
+  EXPECT_THAT(space_error({aspen, birch}, 2), HasSubstr("components: got 2, expected 1 … 1"));
   Preset other = birch;
   other.model = "lsystem";
-  EXPECT_THAT(error_of({aspen, other}, 1), HasSubstr("expected one model"));
+  EXPECT_THAT(space_error({aspen, other}, 1), HasSubstr("expected one model"));
 }
 
 }  // namespace
