@@ -25,12 +25,13 @@ struct Generation {
   }
 };
 
-std::vector<Generation> run_ga(OptimizerSettings settings, std::size_t generations) {
+std::vector<Generation> run_ga(OptimizerSettings settings, std::size_t generations,
+                               const Objective& objective = Sphere(kGenes)) {
   settings["population"] = kPopulation;
   settings.insert({"elites", 0});
   Trace trace;
   const Budget budget{long(kPopulation * generations)};
-  optimizer_by_name("ga").minimize(Sphere(kGenes), settings, budget, {}, 3, trace);
+  optimizer_by_name("ga").minimize(objective, settings, budget, {}, 3, trace);
   std::vector<Generation> all;
   std::size_t row = 0;
   for (const std::size_t size : trace.batch_sizes) {
@@ -133,6 +134,25 @@ TEST(Ga, ATournamentOfOneTakesAnyParent) {
   for (const Point& parent : run[0].points)
     with_children += from_one_parent(parent, run[1].points) >= kGenes - 8;
   EXPECT_NEAR(double(with_children), 100 * (1 - std::exp(-1.0)), 25);
+}
+
+/// The later a point is asked for, the worse it is: no child can take an elite's place.
+class EverWorse : public RowFunction {
+ public:
+  using RowFunction::RowFunction;
+  double value(std::span<const double>) const override { return ++asked_; }
+
+ private:
+  mutable double asked_ = 0;
+};
+
+TEST(Ga, TheEliteIsTheBestAndStaysWhereNoChildIsBetter) {
+  const EverWorse worse(kGenes);
+  const auto run = run_ga({{"crossover_chance", 0}, {"tournament", 1000}, {"elites", 1}}, 4, worse);
+  const Point& first = run[0].points[0];
+  for (std::size_t g = 1; g < run.size(); ++g)
+    for (const Point& child : run[g].points)
+      EXPECT_GE(in_common(child, first), kGenes - 8) << "generation " << g;
 }
 
 /// With an elite, the best of all that were ever seen goes on having children.
