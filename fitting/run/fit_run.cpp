@@ -141,7 +141,7 @@ FitResult FitRun::run(const std::optional<SpeciesSpace>& species) {
     search(starts, scores);
   else
     begin_from_best(starts, scores);
-  measure_identifiability();
+  identify_parameters();
   if (will_refine()) refine();
   return finish();
 }

@@ -57,7 +57,7 @@ class FitRun : public Observer {
   void search(const std::vector<StartPoint>& starts, const std::vector<double>& scores);
   void begin_from_best(const std::vector<StartPoint>& starts, const std::vector<double>& scores);
   bool search_time_is_over() const;
-  void measure_identifiability();
+  void identify_parameters();
 
   // fit_run_refinement.cpp
   bool will_refine() const;

@@ -109,7 +109,7 @@ void FitRun::begin_from_best(const std::vector<StartPoint>& starts, const std::v
 }
 
 /// From the search alone, so that it comes out the same when the run is resumed.
-void FitRun::measure_identifiability() {
+void FitRun::identify_parameters() {
   if (!state_.archive || state_.stopped_by == FitStop::interrupted) return;
   state_.identifiability = measure_identifiability(
       *state_.archive, plant_scorer_, scorer_.evaluations() / kIdentifiabilityShare, record_.seed);
