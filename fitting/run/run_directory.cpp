@@ -1,12 +1,11 @@
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
 #include <espalier/fitting/identifiability/identifiability_files.h>
 #include <espalier/fitting/run/run_directory.h>
-#include <espalier/image/measures/metrics_json.h>
+#include <espalier/fitting/run/run_summary.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/image/reading/frame.h>
 #include <espalier/image/reading/room_to_grow.h>
@@ -128,26 +127,6 @@ void write_history(const fs::path& directory, const RunState& state) {
   write_png(directory / "convergence.png", chart_to_picture(chart));
 }
 
-nlohmann::ordered_json archive_to_json(const SolutionArchive& archive) {
-  auto rows = nlohmann::ordered_json::array();
-  for (const ArchivedSolution& solution : archive.solutions())
-    rows.push_back({{"preset", fmt::format("archive/{}.toml", rows.size() + 1)},
-                    {"fitness", 1 - solution.score},
-                    {"distance", distance_between(solution, archive.solutions().front())}});
-  return rows;
-}
-
-nlohmann::ordered_json identifiability_to_json(const IdentifiabilityReport& report) {
-  nlohmann::ordered_json json = {{"tolerance", report.tolerance}, {"evaluations", report.evaluations}};
-  for (const Identifiability identifiability : {Identifiability::determined, Identifiability::partly,
-                                                Identifiability::open, Identifiability::no_effect}) {
-    auto& names = json[identifiability_name(identifiability)] = nlohmann::ordered_json::array();
-    for (const ParameterIdentifiability& row : report.parameters)
-      if (row.identifiability == identifiability) names.push_back(row.parameter.name);
-  }
-  return json;
-}
-
 }  // namespace
 
 const Overrides& best_overrides(const RunState& state) {
@@ -208,45 +187,6 @@ void write_run_directory(const fs::path& directory, RunState& state) {
   if (state.archive) write_identifiability(directory, state.identifiability, *state.archive);
   write_file_atomically(directory / "summary.json", run_summary(state));
   write_file_atomically(directory / "run.toml", record_to_toml(state.record, outcome_of(state)));
-}
-
-std::string run_summary(const RunState& state) {
-  nlohmann::ordered_json summary;
-  summary["fitness"] = 1 - state.best.score;
-  summary.update(nlohmann::ordered_json(state.best_metrics));
-  summary["evaluations"] = state.evaluations;
-  summary["branch_rounds"] = state.branches.rounds;
-  summary["branch_steps"] = state.branches.steps;
-  summary["kind"] = name_of(state.kind);
-  summary["trained_to_target"] = state.task.growth.train;
-  if (state.metrics_untrained) summary["without_training"] = *state.metrics_untrained;
-  if (state.full_size) {
-    summary["full_size"] = state.full_size->metrics;
-    summary["full_size"]["size_px"] = state.full_size->best.front().width_px();
-  }
-  summary["best_at_evaluation"] = state.best.evaluation;
-  summary["seconds"] = state.seconds;
-  summary["evaluations_per_second"] =
-      state.seconds > 0 ? static_cast<double>(state.evaluations) / state.seconds : 0;
-  summary["stopped_by"] = state.stopped_by ? name_of(*state.stopped_by) : "still running, or killed";
-  summary["optimizer"] = state.record.optimizer;
-  summary["objective"] = state.record.objective;
-  summary["model"] = state.record.model;
-  summary["seed"] = state.record.seed;
-  summary["fit_seeds"] = state.record.fit_seeds;
-  summary["size_px"] = state.record.target.size_px;
-  summary["embree_disagreement_pixels"] = state.embree_disagreement_px;
-  if (state.failures.count > 0)
-    summary["failed_candidates"] = {{"count", state.failures.count}, {"first", state.failures.first}};
-  if (state.record.height_m) summary["height_m"] = *state.record.height_m;
-  for (const ViewRecord& view : state.record.views) summary["pictures"].push_back(view.picture.string());
-  if (!state.task.warnings.empty()) summary["warnings"] = state.task.warnings;
-  if (state.archive) summary["archive"] = archive_to_json(*state.archive);
-  if (!state.identifiability.parameters.empty())
-    summary["parameters"] = identifiability_to_json(state.identifiability);
-  for (const ScoredStart& start : state.starts)
-    summary["starts"].push_back({{"name", start.name}, {"fitness", start.fitness}});
-  return summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace espalier

@@ -62,7 +62,4 @@ void begin_run_directory(const std::filesystem::path& directory, const RunState&
 /// Draws the best candidate, counts where Embree disagrees, and replaces all files but the log.
 void write_run_directory(const std::filesystem::path& directory, RunState& state);
 
-/// summary.json.
-std::string run_summary(const RunState& state);
-
 }  // namespace espalier

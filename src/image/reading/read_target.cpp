@@ -2,7 +2,7 @@
 #include <espalier/image/pictures/decode.h>
 #include <espalier/image/reading/clean.h>
 #include <espalier/image/reading/read_target.h>
-#include <espalier/image/reading/separate.h>
+#include <espalier/image/reading/separate_tree.h>
 
 namespace espalier {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <espalier/image/reading/separate.h>
+#include <espalier/image/reading/separate_tree.h>
 
 namespace espalier {
 namespace {

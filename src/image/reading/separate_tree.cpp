@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include <espalier/core/error.h>
-#include <espalier/image/reading/separate.h>
+#include <espalier/image/reading/separate_tree.h>
 
 namespace espalier {
 
