@@ -30,6 +30,18 @@ bool removes(const OverrideNode& node) {
   });
 }
 
+std::size_t count_numbers(const BranchOffsets& branch) {
+  if (branch.removed) return 1;
+  const auto moved = std::count_if(branch.at.begin(), branch.at.end(), [](double x) { return x != 0; });
+  return static_cast<std::size_t>(moved) + (branch.seed != 0);
+}
+
+std::size_t count_numbers(const Overrides& overrides) {
+  std::size_t count = 0;
+  for (const OverrideNode& node : overrides.nodes) count += node.set.overrides.size();
+  return count;
+}
+
 BranchOffsets read_offsets(const BranchPath& path, const Overrides& overrides) {
   BranchOffsets branch{.path = path};
   const OverrideNode* node = overrides.find(path);

@@ -27,9 +27,9 @@ inline constexpr std::array<BranchDimension, 7> kBranchDimensions{{
     {Quantity::radius, Relation::factor, 0.4, -4},
 }};
 
-/// The coordinate moved into its range.
-inline double clamped(std::size_t dimension, double x) {
-  return std::clamp(x, kBranchDimensions[dimension].lowest, 1.0);
+/// The coordinate moved into its range, or into that share of it.
+inline double clamped(std::size_t dimension, double x, double share = 1) {
+  return std::clamp(x, share * kBranchDimensions[dimension].lowest, share);
 }
 
 struct BranchOffsets {
@@ -43,6 +43,12 @@ BranchOffsets read_offsets(const BranchPath& path, const Overrides& overrides);
 
 /// Leaves what the node says of other quantities as it is.
 void write_offsets(const BranchOffsets& branch, Overrides& overrides);
+
+/// What the branch has of its own: offsets that are not 0, a seed, its removal.
+std::size_t count_numbers(const BranchOffsets& branch);
+
+/// The same of all branches of a tree.
+std::size_t count_numbers(const Overrides& overrides);
 
 /// Whether the node takes its branch away.
 bool removes(const OverrideNode& node);

@@ -64,6 +64,10 @@ double mean_dissimilarity(const FitTask& task, const Masks& masks) {
   return sum / static_cast<double>(masks.size());
 }
 
+double price_of_numbers(const FitTask& task, const Solution& solution) {
+  return task.freedom.price * static_cast<double>(count_numbers(solution.overrides));
+}
+
 void join(Masks& all, const Masks& more) {
   for (std::size_t v = 0; v < all.size(); ++v)
     for (std::size_t w = 0; w < all[v].words().size(); ++w) all[v].words()[w] |= more[v].words()[w];
@@ -77,7 +81,8 @@ class Refinement {
         solution_(solution),
         drawer_(task),
         reach_limit_(task),
-        draws_(settings.key) {
+        draws_(settings.key),
+        freedom_(task.freedom) {
     find_branches();
   }
 
@@ -161,28 +166,47 @@ class Refinement {
       child.removed = !child.removed;
       if (child.removed) return child;
       for (std::size_t i = 0; i < child.at.size(); ++i)
-        child.at[i] = clamped(i, kBranchStep.return_spread * draws_.normal());
+        child.at[i] =
+            clamped(i, freedom_.share * kBranchStep.return_spread * draws_.normal(), freedom_.share);
       return child;
     }
     if (draws_.chance(kBranchStep.reseeds) && task_.model->can_change(Quantity::seed)) {
       child.seed = 1 + draws_.below(1'000'000);
       return child;
     }
+    if (freedom_.price > 0 && draws_.chance(kBranchStep.forgets)) {
+      forget_one(child);
+      return child;
+    }
     const bool all = draws_.chance(kBranchStep.moves_all);
     for (std::size_t i = 0; i < child.at.size(); ++i)
       if (all || draws_.chance(kBranchStep.moves_each))
-        child.at[i] = clamped(i, child.at[i] + child.sigma * draws_.normal());
+        child.at[i] =
+            clamped(i, child.at[i] + freedom_.share * child.sigma * draws_.normal(), freedom_.share);
     return child;
+  }
+
+  /// An offset or the seed, whichever is drawn; the model gives it again what it gives.
+  void forget_one(Branch& branch) {
+    const std::size_t i = draws_.below(branch.at.size() + 1);
+    if (i < branch.at.size())
+      branch.at[i] = 0;
+    else
+      branch.seed = 0;
+  }
+
+  double price_of(const Branch& branch) const {
+    return freedom_.price * static_cast<double>(count_numbers(branch));
   }
 
   int visit(Branch& branch) {
     const Masks rest = rest_of(branch);
     Solution one = branch_alone(branch.path, solution_);
-    double best = score(rest, branch);
+    double best = score(rest, branch) + price_of(branch);
     for (int step = 0; step < settings_.steps_per_visit; ++step) {
       Branch candidate = mutated(branch);
       draw(candidate, one);
-      const double value = score(rest, candidate);
+      const double value = score(rest, candidate) + price_of(candidate);
       if (value <= best && candidate.too_far_m <= branch.too_far_m) {
         if (value < best) candidate.sigma = wider(candidate.sigma);
         best = value;
@@ -202,7 +226,7 @@ class Refinement {
     });
     Masks masks;
     drawer_.draw(solution_, nullptr, masks);
-    solution_.score = mean_dissimilarity(task_, masks);
+    solution_.score = mean_dissimilarity(task_, masks) + price_of_numbers(task_, solution_);
   }
 
   const FitTask& task_;
@@ -211,6 +235,7 @@ class Refinement {
   Drawer drawer_;
   ReachLimit reach_limit_;
   RandomStream draws_;
+  Freedom freedom_;
   std::vector<Branch> branches_;
   Masks fixed_, joined_;
 };
@@ -221,6 +246,10 @@ double score_of(const FitTask& task, const Solution& solution) {
   Masks masks;
   Drawer(task).draw(solution, nullptr, masks);
   return mean_dissimilarity(task, masks);
+}
+
+double priced_score_of(const FitTask& task, const Solution& solution) {
+  return score_of(task, solution) + price_of_numbers(task, solution);
 }
 
 long refine_branches(const FitTask& task, const RefinementSettings& settings, Solution& solution) {

@@ -23,4 +23,7 @@ long refine_branches(const FitTask& task, const RefinementSettings& settings, So
 /// The dissimilarity of the whole tree, the mean over all views.
 double score_of(const FitTask& task, const Solution& solution);
 
+/// The same and the price of all numbers that its branches have of their own: what is refined by.
+double priced_score_of(const FitTask& task, const Solution& solution);
+
 }  // namespace espalier

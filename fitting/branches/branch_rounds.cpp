@@ -73,7 +73,7 @@ BranchRounds begin_branch_rounds(const FitTask& task, const std::vector<Solution
 }
 
 void rescore(const FitTask& task, BranchRounds& state) {
-  for (Solution& copy : state.copies) copy.score = score_of(task, copy);
+  for (Solution& copy : state.copies) copy.score = priced_score_of(task, copy);
 }
 
 void refine_round(const FitTask& task, Seed seed, int threads, BranchRounds& state) {

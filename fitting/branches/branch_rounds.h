@@ -18,8 +18,9 @@ struct RoundRow {
   FitStage stage = FitStage::branches;  ///< or tracing, finish
   long steps = 0;
   double seconds = 0;
-  double score = 1;      ///< in masks of the search's size, as all stages before
-  double own_score = 1;  ///< that the stage refines by: in the finish the mean over both sizes
+  double score = 1;  ///< in masks of the search's size, as all stages before
+  double own_score =
+      1;  ///< that the stage refines by: in the finish the mean over both sizes; with its price
   MaskMetrics metrics;
 };
 

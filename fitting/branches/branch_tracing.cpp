@@ -100,7 +100,7 @@ Solution trace_branches(const FitTask& task, const TracingSettings& settings, co
   Solution traced{start.values, start.plant_seed, {}, 1};
   if (!make_plain(task.model->table(), axes[0], task.views[0].metres_per_px, traced.values)) return start;
   Tracer(task, settings, axes, traced).run();
-  traced.score = score_of(task, traced);
+  traced.score = priced_score_of(task, traced);
   return traced;
 }
 

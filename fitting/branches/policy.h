@@ -14,6 +14,7 @@ struct BranchStepPolicy {
   double reseeds = 0.08;       ///< chance that it draws the branch other random numbers
   double moves_all = 0.3;      ///< chance that it changes all offsets
   double moves_each = 0.4;     ///< chance of each offset, where not all are changed
+  double forgets = 0.15;  ///< chance that it gives one number back to the model, where numbers have a price
 };
 inline constexpr BranchStepPolicy kBranchStep;
 

@@ -10,7 +10,7 @@ struct Solution {
   ParameterValues values;
   Seed plant_seed = 1;
   Overrides overrides;
-  double score = 1;  ///< dissimilarity, 0 is best
+  double score = 1;  ///< dissimilarity, 0 is best; once branches are refined, with the price of their numbers
 };
 
 }  // namespace espalier

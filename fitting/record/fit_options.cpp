@@ -6,6 +6,7 @@
 #include <espalier/core/field_error.h>
 #include <espalier/fitting/optimizers/search_method.h>
 #include <espalier/fitting/record/fit_options.h>
+#include <espalier/fitting/record/freedom.h>
 #include <espalier/fitting/record/species_components.h>
 #include <espalier/image/measures/objective.h>
 #include <espalier/models/models.h>
@@ -287,6 +288,17 @@ std::vector<FitOption> options_of_the_search() {
        .help = "evaluations in the species space, at most",
        .is_written = has_space,
        .before = std::int64_t{FitRecord{}.space_evaluations}},
+      {.field = "freedom",
+       .key = "search.freedom",
+       .option = "freedom",
+       .member = [](FitRecord& record) -> std::optional<double>& { return record.freedom; },
+       .lower = 0,
+       .upper = 100,
+       .help = "how far branches may leave what the model draws: 0 not at all, 1 little, 4 and more as far "
+               "as they "
+               "like (default: 1, of leafless trees and palms 4)",
+       .since = "0.2",
+       .before = kWholeFreedom},
       {.field = "search.free",
        .key = "search.free",
        .option = "free",

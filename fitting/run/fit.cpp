@@ -80,7 +80,7 @@ FitResult fit(const FitRecord& given, const fs::path& directory, const FitExecut
   check_searches(record, optimizer_of(record, options),
                  make_search_space(table, table.defaults(), record.search), species);
   const FitPlan plan = plan_of(record, task);
-  hold_overrides(plan, task);
+  settle_branches(plan, task);
   begin_run_directory(directory, {.record = record, .task = task});
   for (const std::string& warning : task.warnings) options.on_warning(warning);
   return FitRun(record, task, plan, directory, options).run(species);

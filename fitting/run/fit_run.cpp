@@ -106,11 +106,24 @@ MaskMetrics FitRun::untrained_metrics() {
   return mean_metrics(free, draw_candidate(free, state_.best.values, *renderer_, best_overrides(state_)));
 }
 
+/// What the best tree looks like as a plant; nothing where it is none, beyond the growth budget.
+void FitRun::portray_best() {
+  const ChangeGraph changes(best_overrides(state_));
+  GrowthSettings growth = task_.growth;
+  growth.changes = &changes;
+  Plant plant;
+  if (!task_.model->generate(state_.best.values, best_seed(state_), growth, plant).grown) return;
+  const View& front = record_.views.front().view;
+  state_.portrait = portray(plant, front, best_overrides(state_));
+  state_.sheet = plant_sheet(plant, task_.views.front(), front);
+}
+
 FitResult FitRun::finish() {
   if (state_.branches.copies.empty()) state_.best = scorer_.best();
   if (task_.growth.train) state_.metrics_untrained = untrained_metrics();
   if (!state_.branches.copies.empty())
     state_.full_size = look_at_full_size(record_, task_, sized_tasks_, state_.branches.best());
+  portray_best();
   refresh_directory();
   const auto best_start =
       std::max_element(state_.starts.begin(), state_.starts.end(),

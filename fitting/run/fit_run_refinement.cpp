@@ -77,7 +77,8 @@ void FitRun::go_on_from(const BranchRounds& reached) {
 void FitRun::note_round() {
   const Solution& best = state_.branches.best();
   const std::vector<Mask> masks = draw_candidate(task_, best.values, *renderer_, best.overrides);
-  const double score = finishing() ? score_of(task_, best) : best.score;
+  const bool is_plain = !finishing() && task_.freedom.price == 0;
+  const double score = is_plain ? best.score : score_of(task_, best);
   state_.branches.history.push_back(
       {stage_, state_.branches.steps, seconds(), score, best.score, mean_metrics(task_, masks)});
   add_to_trace(state_.branches.history.back());

@@ -48,12 +48,13 @@ std::vector<GrownInto> grown_into(const RunState& state) {
 
 std::string best_to_toml(const RunState& state) {
   const std::string stem = state.record.views.front().picture.stem().string();
-  return preset_to_toml({stem + "_fit",
-                         fmt::format("fitted to {} with {}, seed {}: fitness {:.4f}",
-                                     state.record.views.front().picture.filename().string(),
-                                     state.record.optimizer, state.record.seed, 1 - state.best.score),
-                         state.record.model, state.best.values, best_overrides(state), grown_into(state)},
-                        state.task.model->table());
+  return preset_to_toml(
+      {stem + "_fit",
+       fmt::format("fitted to {} with {}, seed {}: fitness {:.4f}",
+                   state.record.views.front().picture.filename().string(), state.record.optimizer,
+                   state.record.seed, 1 - state.best.score),
+       state.record.model, state.best.values, best_overrides(state), grown_into(state), best_seed(state)},
+      state.task.model->table());
 }
 
 std::string archived_to_toml(const RunState& state, std::size_t index) {
@@ -67,6 +68,7 @@ std::string archived_to_toml(const RunState& state, std::size_t index) {
   preset.values = solution.values;
   preset.overrides = state.task.overrides;
   preset.grown_into = grown_into(state);
+  preset.seed = state.task.plant_seeds.front();
   return preset_to_toml(preset, state.task.model->table());
 }
 
@@ -133,6 +135,10 @@ const Overrides& best_overrides(const RunState& state) {
   return state.branches.copies.empty() ? state.task.overrides : state.branches.best().overrides;
 }
 
+Seed best_seed(const RunState& state) {
+  return state.branches.copies.empty() ? state.task.plant_seeds.front() : state.branches.best().plant_seed;
+}
+
 std::optional<BranchRounds> read_branch_rounds(const fs::path& directory) {
   const fs::path file = directory / kBranchesFile;
   std::error_code error;
@@ -184,6 +190,7 @@ void write_run_directory(const fs::path& directory, RunState& state) {
                           branch_rounds_to_json(state.branches, state.record.model));
   write_history(directory, state);
   write_archive(directory, state);
+  if (state.sheet) write_png(directory / "tree.png", *state.sheet);
   if (state.archive) write_identifiability(directory, state.identifiability, *state.archive);
   write_file_atomically(directory / "summary.json", run_summary(state));
   write_file_atomically(directory / "run.toml", record_to_toml(state.record, outcome_of(state)));

@@ -10,6 +10,7 @@
 #include <espalier/fitting/identifiability/identifiability.h>
 #include <espalier/fitting/record/fit_record.h>
 #include <espalier/fitting/run/full_size.h>
+#include <espalier/fitting/run/plant_portrait.h>
 #include <espalier/fitting/search/logged_scorer.h>
 #include <espalier/fitting/search/trace.h>
 #include <espalier/fitting/task/fit_task.h>
@@ -42,10 +43,15 @@ struct RunState {
   CandidateFailures failures = {};              ///< since the run began or was resumed
   std::optional<SolutionArchive> archive = {};  ///< of the search of the parameters, once it begins
   IdentifiabilityReport identifiability = {};   ///< after it
+  std::optional<PlantPortrait> portrait = {};   ///< of the best plant, once the run ends
+  std::optional<Picture> sheet = {};            ///< likewise
 };
 
 /// What the branches of the best tree are overridden by.
 const Overrides& best_overrides(const RunState& state);
+
+/// The seed of the best tree; of several that are averaged, the first.
+Seed best_seed(const RunState& state);
 
 /// The refinement that a run in the directory had reached; none where it had not begun.
 std::optional<BranchRounds> read_branch_rounds(const std::filesystem::path& directory);

@@ -27,6 +27,14 @@ nlohmann::ordered_json identifiability_to_json(const IdentifiabilityReport& repo
   return json;
 }
 
+nlohmann::ordered_json portrait_to_json(const PlantPortrait& portrait) {
+  return {{"visible_wood", portrait.visible_wood},
+          {"depth_over_width", portrait.depth_over_width},
+          {"stems", portrait.stems},
+          {"leaves", portrait.leaves},
+          {"override_numbers", portrait.override_numbers}};
+}
+
 }  // namespace
 
 std::string run_summary(const RunState& state) {
@@ -43,6 +51,7 @@ std::string run_summary(const RunState& state) {
     summary["full_size"] = state.full_size->metrics;
     summary["full_size"]["size_px"] = state.full_size->best.front().width_px();
   }
+  if (state.portrait) summary["plant"] = portrait_to_json(*state.portrait);
   summary["best_at_evaluation"] = state.best.evaluation;
   summary["seconds"] = state.seconds;
   summary["evaluations_per_second"] =

@@ -31,6 +31,7 @@ class Planner {
   FitPlan plan() {
     plan_.kind = record_.kind == KindChoice::automatic ? choice_of(reading_.kind) : record_.kind;
     plan_.shares = shares_of(plan_.kind);
+    plan_.freedom = freedom_of(record_.freedom.value_or(usual_freedom(plan_.kind)));
     plan_.choice = record_.search;
     trunk_ = held_trunk();
     if (record_.search.free.empty()) restrict_choice();
@@ -125,7 +126,12 @@ StageShares shares_of(KindChoice kind) {
 
 FitPlan plan_of(const FitRecord& record, const FitTask& task) { return Planner(record, task).plan(); }
 
-void hold_overrides(const FitPlan& plan, FitTask& task) {
+double usual_freedom(KindChoice kind) {
+  return kind == KindChoice::leafless || kind == KindChoice::palm ? kWholeFreedom : 1;
+}
+
+void settle_branches(const FitPlan& plan, FitTask& task) {
+  task.freedom = plan.freedom;
   if (plan.held.empty()) return;
   task.overrides = plan.held;
   task.changes = std::make_shared<const ChangeGraph>(task.overrides);

@@ -19,6 +19,10 @@ struct StageShares {
 
 StageShares shares_of(KindChoice kind);
 
+/// Where nobody says it: the picture of a leafless tree or a palm shows its branches, that of a crown does
+/// not.
+double usual_freedom(KindChoice kind);
+
 struct FitPlan {
   KindChoice kind = KindChoice::any;  ///< the record's; where that is automatic, the first picture's
   /// The record's choice and what the kind adds to it, unless that is any: no leaves on a leafless tree,
@@ -30,12 +34,13 @@ struct FitPlan {
   /// Of all candidates: the trunk of a palm, which lies on the picture's (branches/palm_trunk.h).
   Overrides held;
   StageShares shares;
+  Freedom freedom;  ///< the record's, or what the kind needs
 };
 
 /// Throws InputError where a start is no preset of the model.
 FitPlan plan_of(const FitRecord& record, const FitTask& task);
 
-/// Gives all candidates of the task the overrides that the plan holds.
-void hold_overrides(const FitPlan& plan, FitTask& task);
+/// Gives the task what the plan says of branches: the overrides that all candidates hold, and their freedom.
+void settle_branches(const FitPlan& plan, FitTask& task);
 
 }  // namespace espalier

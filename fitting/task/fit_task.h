@@ -7,6 +7,7 @@
 
 #include <espalier/core/random.h>
 #include <espalier/fitting/picture/picture_reading.h>
+#include <espalier/fitting/record/freedom.h>
 #include <espalier/image/measures/compare.h>
 #include <espalier/image/measures/objective.h>
 #include <espalier/overrides/change_graph.h>
@@ -42,6 +43,7 @@ struct FitTask {
   std::shared_ptr<const Volume> envelope;      ///< what growth.prune_to points to, if the tree is trained
   Overrides overrides;                         ///< of every candidate of the search
   std::shared_ptr<const ChangeGraph> changes;  ///< the same, which growth.changes points to
+  Freedom freedom;                             ///< of single branches
   RendererFactory make_renderer = make_scanline_renderer;
   std::vector<std::string> warnings;  ///< what its pictures leave to be desired, a line each
 };

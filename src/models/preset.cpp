@@ -13,8 +13,8 @@ namespace espalier {
 
 namespace {
 
-const std::vector<std::string> kPresetKeys = {"name",   "description", "model",      "extends",
-                                              "branch", "shared",      kGrownIntoKey};
+const std::vector<std::string> kPresetKeys = {"name", "description", "model",  "extends",
+                                              "seed", "branch",      "shared", kGrownIntoKey};
 
 /// The text under a key of the preset itself, if it is there.
 std::optional<std::string> read_text(const toml::table& document, const std::string& source,
@@ -23,6 +23,15 @@ std::optional<std::string> read_text(const toml::table& document, const std::str
   if (!node) return std::nullopt;
   if (auto text = node->value_exact<std::string>()) return text;
   throw_input_error("{}: key '{}': got {}, expected a string", toml_location(source, *node), key,
+                    describe_toml(*node));
+}
+
+std::optional<Seed> read_seed(const toml::table& document, const std::string& source) {
+  const toml::node* node = document.get("seed");
+  if (!node) return std::nullopt;
+  const auto seed = node->value_exact<std::int64_t>();
+  if (seed && *seed >= 0) return static_cast<Seed>(*seed);
+  throw_input_error("{}: key 'seed': got {}, expected a whole number from 0", toml_location(source, *node),
                     describe_toml(*node));
 }
 
@@ -125,6 +134,7 @@ Preset load_chain(const PresetSource& source, Chain& chain) {
   Preset preset = load_base(document, source, chain);
   preset.name = read_text(document, source.label, "name").value_or(source.name);
   preset.description = read_text(document, source.label, "description").value_or(preset.description);
+  if (const auto seed = read_seed(document, source.label)) preset.seed = seed;
   const Model& model = model_by_name(preset.model);
   read_parameters(document, source.label, model.table(), kPresetKeys, preset.values);
   read_overrides({document, source.label}, preset.overrides);

@@ -1,10 +1,12 @@
 // Presets: parameter values of a model as TOML, bundled (by name) or the user's (by path).
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <espalier/core/parameter_table.h>
+#include <espalier/core/random.h>
 #include <espalier/models/grown_into.h>
 #include <espalier/overrides/overrides.h>
 
@@ -17,6 +19,7 @@ struct Preset {
   ParameterValues values;                  ///< in the order of the model's table
   Overrides overrides = {};                ///< of single branches
   std::vector<GrownInto> grown_into = {};  ///< pictures whose outlines the tree stays inside of
+  std::optional<Seed> seed = {};           ///< of the one tree it stands for; none: of a species
 };
 
 /// Names of the bundled presets, sorted.

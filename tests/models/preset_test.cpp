@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include <espalier/core/error.h>
+#include <espalier/models/grow_preset.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 
@@ -95,13 +96,41 @@ TEST(Preset, WritingAndReadingKeepsEveryBit) {
   EXPECT_TRUE(rc::check([&] {
     Preset preset{"a \"name\"", "tab\t, back\\slash, line\nfeed, ü", "weber_penn", {}};
     for (const ParameterInfo& row : table.rows) preset.values.push_back(*valid_value(row));
+    if (*rc::gen::arbitrary<bool>()) preset.seed = *rc::gen::inRange<Seed>(0, Seed{1} << 62);
     const Preset again = load_preset(folder.write("random.toml", preset_to_toml(preset)));
     RC_ASSERT(again.name == preset.name);
+    RC_ASSERT(again.seed == preset.seed);
     RC_ASSERT(again.description == preset.description);
     for (std::size_t i = 0; i < preset.values.size(); ++i)
       RC_ASSERT(std::bit_cast<std::uint64_t>(again.values[i]) ==
                 std::bit_cast<std::uint64_t>(preset.values[i]));
   }));
+}
+
+TEST(Preset, GrowsWithItsSeedUnlessAnotherIsAskedFor) {
+  Preset preset = load_preset("apple");
+  const auto knots = [&](const PresetGrowth& growth) {
+    return grow_preset(preset, "apple", growth).knots.radius_m;
+  };
+  const auto of_species = knots({}), of_seven = knots({.seed = 7});
+  EXPECT_NE(of_species, of_seven);
+  EXPECT_EQ(of_species, knots({.seed = 1}));
+  preset.seed = 7;
+  EXPECT_EQ(of_seven, knots({}));
+  EXPECT_EQ(of_species, knots({.seed = 1}));
+}
+
+TEST(Preset, ASeedThatIsNoneIsRefused) {
+  const PresetFolder folder;
+  for (const char* seed : {"-1", "1.5", "\"one\"", "true"}) {
+    const std::string text = fmt::format("model = \"weber_penn\"\nseed = {}\n", seed);
+    try {
+      load_preset(folder.write("seed.toml", text));
+      FAIL() << seed;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("seed.toml:2: key 'seed': got "));
+    }
+  }
 }
 
 TEST(Preset, WhatItDoesNotNameIsTheModelsDefault) {

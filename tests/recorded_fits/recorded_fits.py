@@ -44,6 +44,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 TARGETS = HERE.parents[1] / "targets"  # where fits run: pictures go by their names
 DIGESTS = ["fitted", "drawn"]
 VARYING_KEYS = {"seconds", "evaluations_per_second", "embree_disagreement_pixels"}
+LATER_KEYS = {"plant"}  # of summary.json, in no run when these were recorded; nor was tree.png, nor a preset's seed
+LATER_FILES = {"tree.png"}
 HEX_DIGITS = 16
 
 
@@ -56,7 +58,7 @@ def without_varying(data):
         return [without_varying(value) for value in data]
     if not isinstance(data, dict):
         return data
-    kept = {key: without_varying(value) for key, value in data.items() if key not in VARYING_KEYS}
+    kept = {key: without_varying(value) for key, value in data.items() if key not in VARYING_KEYS | LATER_KEYS}
     if "pictures" in kept:
         kept["pictures"] = [pathlib.PurePath(picture).name for picture in kept["pictures"]]
     return kept
@@ -92,7 +94,9 @@ def json_content(path):
 
 
 def preset_content(path):
-    return canonical(tomllib.loads(path.read_text()))
+    preset = tomllib.loads(path.read_text())
+    preset.pop("seed", None)
+    return canonical(preset)
 
 
 def record_content(path):
@@ -148,7 +152,7 @@ def kind_of(path):
 def digests_of(directory):
     """Both digests of a run directory: of all its files, in the order of their names."""
     hashes = {name: hashlib.sha256() for name in DIGESTS}
-    for path in sorted(path for path in directory.rglob("*") if path.is_file()):
+    for path in sorted(path for path in directory.rglob("*") if path.is_file() and path.name not in LATER_FILES):
         digest, content = kind_of(path)
         part = hashlib.sha256(content(path)).hexdigest()
         hashes[digest].update(f"{path.relative_to(directory)} {part}\n".encode())

@@ -7,9 +7,8 @@
 #include <string>
 
 #include <espalier/app/commands/commands.h>
+#include <espalier/models/grow_preset.h>
 #include <espalier/models/models.h>
-#include <espalier/models/preset.h>
-#include <espalier/overrides/change_graph.h>
 #include <espalier/overrides/overrides_tree.h>
 
 namespace espalier {
@@ -42,16 +41,12 @@ void check_file(const std::string& file) {
 }
 
 /// The overrides of single branches as a tree in comments; dormant ones are those that do not grow with
-/// seed 1.
+/// its seed.
 std::string branches_text(const Preset& preset) {
-  const ChangeGraph changes(preset.overrides);
-  const std::unique_ptr<Volume> envelope = envelope_of(preset.grown_into);
-  GrowthSettings settings{.prune_to = envelope.get(), .train = true, .changes = &changes};
-  Plant plant;
-  model_by_name(preset.model).generate(preset.values, 1, settings, plant);
+  const Plant plant = grow_preset(preset, preset.name);
   std::set<BranchPath> grown;
   for (std::size_t stem = 0; stem < plant.stems.size(); ++stem) grown.insert(path_of(plant, stem));
-  return "\n# Branches that are overridden, as they grow with seed 1:\n" +
+  return fmt::format("\n# Branches that are overridden, as they grow with seed {}:\n", seed_of(preset)) +
          overrides_tree(
              preset.overrides, [&](const BranchPath& path) { return grown.contains(path); }, "# ");
 }

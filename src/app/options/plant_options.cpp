@@ -7,9 +7,8 @@
 #include <espalier/environment/volume.h>
 #include <espalier/lsystem/derivation/derivation.h>
 #include <espalier/lsystem/files/bundled.h>
+#include <espalier/models/grow_preset.h>
 #include <espalier/models/models.h>
-#include <espalier/models/preset.h>
-#include <espalier/overrides/change_graph.h>
 
 namespace espalier {
 
@@ -35,9 +34,8 @@ void set_parameters(const std::vector<std::string>& assignments, const Parameter
 void add_plant_options(CLI::App& command, PlantOptions& options) {
   command.add_option("preset", options.preset, "a bundled preset (see: espalier species) or a TOML file")
       ->required();
-  command.add_option("--seed", options.seed, "seed of the random numbers")
-      ->check(reject_negative)
-      ->capture_default_str();
+  command.add_option("--seed", options.seed, "seed of the random numbers (default: the preset's, or 1)")
+      ->check(reject_negative);
   command.add_option("--set", options.assignments, "change a parameter: name=value (repeatable)")
       ->allow_extra_args(false);
   command.add_option(
@@ -61,20 +59,8 @@ Plant grow_plant(const PlantOptions& options) {
   Preset preset = load_preset(options.preset);
   const Model& model = model_by_name(preset.model);
   set_parameters(options.assignments, model.table(), preset.values);
-  const std::unique_ptr<Volume> volume =
-      options.prune_to.empty() ? envelope_of(preset.grown_into) : read_volume(options.prune_to);
-  GrowthSettings settings;
-  settings.prune_to = volume.get();
-  settings.train = options.prune_to.empty();
-  const ChangeGraph changes(preset.overrides);
-  settings.changes = &changes;
-  Plant plant;
-  const GrowthResult result = model.generate(preset.values, options.seed, settings, plant);
-  if (!result.grown)
-    throw_input_error("{}: would have {:.3g} times as many stems or leaves as allowed ({:g} and {:g})",
-                      options.preset, result.over_budget_factor, settings.budget.max_stems,
-                      settings.budget.max_leaves);
-  return plant;
+  const std::unique_ptr<Volume> volume = options.prune_to.empty() ? nullptr : read_volume(options.prune_to);
+  return grow_preset(preset, options.preset, {.seed = options.seed, .prune_to = volume.get()});
 }
 
 }  // namespace espalier

@@ -2,6 +2,7 @@
 // Shared by mesh, mask and render, so that the same words grow the same plant everywhere.
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace espalier {
 
 struct PlantOptions {
   std::string preset;                    ///< a bundled preset's name, or a file
-  Seed seed = 1;                         ///< of the random numbers
+  std::optional<Seed> seed;              ///< of the random numbers; none: the preset's
   std::vector<std::string> assignments;  ///< "name=value", after the preset, in order
   std::string prune_to;                  ///< a volume as text (environment/volume.h), empty for none
 };

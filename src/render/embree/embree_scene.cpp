@@ -127,6 +127,24 @@ void EmbreeScene::build(const Plant& plant, float tolerance_m) {
   box_m_ = scene_box(scene_);
 }
 
+RTCRayHit embree_ray_hit(const Ray& ray) {
+  RTCRayHit out{};
+  out.ray = {ray.origin_m.x,
+             ray.origin_m.y,
+             ray.origin_m.z,
+             0,
+             ray.direction.x,
+             ray.direction.y,
+             ray.direction.z,
+             0,
+             std::numeric_limits<float>::infinity(),
+             ~0u,
+             0,
+             0};
+  out.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  return out;
+}
+
 void EmbreeScene::trace(const Camera& camera, Mask& mask) const {
   mask.reset(camera.width_px, camera.height_px);
   const Camera traced = moved_before(camera, box_m_);

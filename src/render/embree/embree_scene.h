@@ -24,6 +24,9 @@ enum GeometryId : unsigned { kStemPart = 0, kLeafPart = 1, kBlossomPart = 2 };
 /// nearest.
 float stem_tolerance_m(const Plant& plant, const Camera& camera);
 
+/// A ray of unbounded length, as Embree takes it.
+RTCRayHit embree_ray_hit(const Ray& ray);
+
 class EmbreeScene {
  public:
   explicit EmbreeScene(SceneQuality quality = SceneQuality::fast_build,

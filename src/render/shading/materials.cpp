@@ -60,24 +60,6 @@ std::optional<LinearRgb> color_of(const std::vector<PartColor>& colors, std::siz
   return LinearRgb{linear(colors[i].r), linear(colors[i].g), linear(colors[i].b)};
 }
 
-RTCRayHit embree_ray_hit(const Ray& ray) {
-  RTCRayHit out{};
-  out.ray = {ray.origin_m.x,
-             ray.origin_m.y,
-             ray.origin_m.z,
-             0,
-             ray.direction.x,
-             ray.direction.y,
-             ray.direction.z,
-             0,
-             std::numeric_limits<float>::infinity(),
-             ~0u,
-             0,
-             0};
-  out.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  return out;
-}
-
 }  // namespace
 
 SurfaceFinder::SurfaceFinder(const Plant& plant, const EmbreeScene& scene, const ShadedSettings& settings)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <espalier/core/error.h>
+#include <espalier/fitting/branches/branch_offsets.h>
 #include <espalier/fitting/branches/branch_refinement.h>
 #include <espalier/fitting/branches/branch_rounds.h>
 #include <espalier/models/models.h>
@@ -73,6 +74,70 @@ TEST(BranchRefinement, OverridesBranchesOfItsOrderOnly) {
     for (const OverrideNode& node : solution.overrides.nodes)
       EXPECT_EQ(node.path.size(), static_cast<std::size_t>(order) + 1);
   }
+}
+
+/// The largest share of its range that an offset of the tree's branches has.
+double widest_offset(const Overrides& overrides) {
+  double widest = 0;
+  for (const OverrideNode& node : overrides.nodes) {
+    const BranchOffsets branch = read_offsets(node.path, overrides);
+    for (std::size_t i = 0; i < branch.at.size(); ++i)
+      widest = std::max(widest, branch.at[i] < 0 ? branch.at[i] / kBranchDimensions[i].lowest : branch.at[i]);
+  }
+  return widest;
+}
+
+Solution refined_with(double freedom, long steps = 4000) {
+  SmallTask small;
+  small.task.freedom = freedom_of(freedom);
+  Solution solution = small.start();
+  refine_branches(small.task, settings_of(1, steps), solution);
+  EXPECT_EQ(solution.score, priced_score_of(small.task, solution));
+  return solution;
+}
+
+TEST(BranchRefinement, OffsetsKeepToTheShareThatTheirFreedomGivesThem) {
+  for (const double freedom : {0.5, 1.0, 2.0}) {
+    const double widest = widest_offset(refined_with(freedom).overrides);
+    EXPECT_LE(widest, freedom / kWholeFreedom + 1e-9) << freedom;
+    EXPECT_GT(widest, 0.5 * freedom / kWholeFreedom) << freedom;
+  }
+}
+
+TEST(BranchRefinement, WithoutFreedomBranchesGetOtherNumbersOrGo) {
+  const Solution refined = refined_with(0);
+  EXPECT_FALSE(refined.overrides.empty());
+  for (const OverrideNode& node : refined.overrides.nodes)
+    for (const Override& entry : node.set.overrides)
+      EXPECT_TRUE(entry.quantity == Quantity::seed || entry.quantity == Quantity::removed);
+}
+
+TEST(BranchRefinement, ANumberThatGainsLessThanItsPriceIsNotKept) {
+  SmallTask small;
+  std::size_t numbers[2];
+  double scores[2];
+  for (const bool dear : {false, true}) {
+    small.task.freedom = {1, dear ? 1e-4 : 0};
+    Solution solution = small.start();
+    refine_branches(small.task, settings_of(1, 4000), solution);
+    numbers[dear] = count_numbers(solution.overrides);
+    scores[dear] = score_of(small.task, solution);
+  }
+  EXPECT_LT(2 * numbers[1], numbers[0]);
+  EXPECT_LT(scores[1], small.start().score - 0.01);
+}
+
+TEST(BranchRefinement, WholeFreedomIsThatOfRunsWithoutAny) {
+  EXPECT_EQ(freedom_of(kWholeFreedom).share, 1);
+  EXPECT_EQ(freedom_of(kWholeFreedom).price, 0);
+  EXPECT_EQ(freedom_of(100).share, 1);
+  EXPECT_EQ(freedom_of(0).share, 0);
+  SmallTask small;
+  Solution given = small.start(), whole = small.start();
+  refine_branches(small.task, settings_of(1, 1000), given);
+  small.task.freedom = freedom_of(kWholeFreedom);
+  refine_branches(small.task, settings_of(1, 1000), whole);
+  EXPECT_EQ(overrides_to_toml(whole.overrides), overrides_to_toml(given.overrides));
 }
 
 TEST(BranchRefinement, LeavesOutWhatAModelCannotChange) {
@@ -155,7 +220,7 @@ BranchRounds two_lanes(SmallTask& small) {
   return state;
 }
 
-TEST(BranchRounds, AfterEachRoundOfAllOrdersAllLanesGoOnFromTheBest) {
+TEST(BranchRounds, AfterEachRoundOfAllOrdersAllCopiesGoOnFromTheBest) {
   SmallTask small;
   for (const bool best_first : {true, false}) {
     BranchRounds state = two_lanes(small);
@@ -171,7 +236,7 @@ TEST(BranchRounds, AfterEachRoundOfAllOrdersAllLanesGoOnFromTheBest) {
   }
 }
 
-TEST(BranchRounds, BetweenThemEachLaneGoesItsOwnWay) {
+TEST(BranchRounds, BetweenThemEachCopyGoesItsOwnWay) {
   SmallTask small;
   BranchRounds state = two_lanes(small);
   state.rounds = 3;
@@ -182,7 +247,7 @@ TEST(BranchRounds, BetweenThemEachLaneGoesItsOwnWay) {
   EXPECT_NE(overrides_to_toml(alike.copies[0].overrides), overrides_to_toml(alike.copies[1].overrides));
 }
 
-TEST(BranchRounds, TheBestIsTheLaneOfTheLowestScore) {
+TEST(BranchRounds, TheBestIsTheCopyOfTheLowestScore) {
   BranchRounds state;
   for (const double score : {0.4, 0.2, 0.3}) state.copies.push_back({.score = score});
   EXPECT_EQ(state.best().score, 0.2);

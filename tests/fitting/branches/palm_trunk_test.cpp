@@ -82,7 +82,7 @@ class PalmTrunk : public testing::TestWithParam<const char*> {};
 TEST_P(PalmTrunk, StandsOnTheLineOfThePicture) {
   FitRecord record = palm_record(GetParam());
   FitTask task = make_task(record);
-  hold_overrides(plan_of(record, task), task);
+  settle_branches(plan_of(record, task), task);
   ASSERT_FALSE(task.overrides.empty());
   const TrunkLine line = *read_trunk_line(task.views[0].target.mask());
   for (const StartPoint& start : plan_of(record, task).starts) {
@@ -137,7 +137,7 @@ TEST(PalmFit, IsLeftToTheUserWhoFreesOrStarts) {
   started.start = "quaking_aspen";
   for (FitRecord record : {freed, started}) {
     FitTask task = make_task(record);
-    hold_overrides(plan_of(record, task), task);
+    settle_branches(plan_of(record, task), task);
     EXPECT_TRUE(task.overrides.empty());
   }
 }

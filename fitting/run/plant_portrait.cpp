@@ -1,0 +1,81 @@
+#include <espalier/charts/chart_layout.h>
+#include <espalier/fitting/branches/branch_offsets.h>
+#include <espalier/fitting/run/plant_portrait.h>
+#include <espalier/image/masks/mask_box.h>
+#include <espalier/image/reading/frame.h>
+#include <espalier/render/camera.h>
+#include <espalier/render/embree/visible_parts.h>
+#include <espalier/render/shading/shaded.h>
+
+namespace espalier {
+
+namespace {
+
+constexpr int kMeasuredPx = 256;  ///< side of the picture that wood is counted in
+constexpr int kTilePx = 320, kMarginPx = 8, kTitlePx = 20;
+constexpr int kSamples = 9;  ///< rays a pixel of the sheet
+
+/// The extent of the plant across a direction that looks at it from `azimuth_deg`.
+float width_m(const Plant& plant, float azimuth_deg) {
+  const Camera camera = frame_bounds(bounds(plant), {azimuth_deg, 0}, kMeasuredPx, kMeasuredPx);
+  Mask mask;
+  make_scanline_renderer()->draw(plant, camera, mask);
+  return area_px(mask) == 0 ? 0 : static_cast<float>(box_of(mask).width()) * camera.metres_per_px;
+}
+
+/// The target's pixels, and what is around them, as large as a tile.
+Picture target_tile(const Mask& mask) {
+  constexpr Rgb kTree{40, 40, 40}, kGround{255, 255, 255};
+  Picture tile(kTilePx, kTilePx);
+  for (int y = 0; y < kTilePx; ++y)
+    for (int x = 0; x < kTilePx; ++x)
+      tile.at(x, y) =
+          mask.get(x * mask.width_px() / kTilePx, y * mask.height_px() / kTilePx) ? kTree : kGround;
+  return tile;
+}
+
+/// The plant as the target's camera sees it, from another side.
+Picture shaded_tile(const Plant& plant, const TargetView& target, const View& view) {
+  const float metres_per_px =
+      target.metres_per_px * static_cast<float>(target.target.mask().width_px()) / kTilePx;
+  return render_shaded(plant,
+                       frame_base({0, 0, 0}, view, metres_per_px, kTilePx, kTilePx, base_row_px(kTilePx)),
+                       {.samples_per_px = kSamples});
+}
+
+}  // namespace
+
+PlantPortrait portray(const Plant& plant, const View& front, const Overrides& overrides) {
+  const View level{front.azimuth_deg, 0};
+  const Camera camera = frame_bounds(bounds(plant), level, kMeasuredPx, kMeasuredPx);
+  const float width = width_m(plant, front.azimuth_deg), depth = width_m(plant, front.azimuth_deg + 90);
+  return {.visible_wood = count_visible_parts(plant, camera).wood_share(),
+          .depth_over_width = width > 0 ? depth / width : 0,
+          .stems = plant.stems.size(),
+          .leaves = plant.leaves.size(),
+          .override_numbers = count_numbers(overrides)};
+}
+
+Picture plant_sheet(const Plant& plant, const TargetView& target, const View& front) {
+  const auto from = [&](float azimuth, float elevation) {
+    return shaded_tile(plant, target, {front.azimuth_deg + azimuth, elevation});
+  };
+  struct Tile {
+    const char* title;
+    Picture picture;
+  };
+  const Tile tiles[] = {{"target", target_tile(target.target.mask())},
+                        {"front", from(0, 0)},
+                        {"side", from(90, 0)},
+                        {"three quarters", from(45, 15)}};
+  ChartLayout layout;
+  float left = kMarginPx;
+  for (const Tile& tile : tiles) {
+    layout.labels.push_back({{left + kTilePx / 2.0f, kTitlePx / 2.0f}, tile.title, TextAnchor::middle});
+    layout.images.push_back({{left, kTitlePx}, tile.picture, {}});
+    left += kTilePx + kMarginPx;
+  }
+  return layout_to_picture(layout, static_cast<int>(left), kTitlePx + kTilePx + kMarginPx);
+}
+
+}  // namespace espalier

@@ -1,0 +1,22 @@
+// Growing the tree of a preset as its file says: with its seed, its overrides, and inside of its outlines.
+#pragma once
+#include <memory>
+#include <optional>
+
+#include <espalier/models/preset.h>
+#include <espalier/plant/plant.h>
+
+namespace espalier {
+
+/// The seed of the preset's tree where nobody asks for another: its own, of a species 1.
+Seed seed_of(const Preset& preset);
+
+struct PresetGrowth {
+  std::optional<Seed> seed = {};     ///< instead of the preset's
+  const Volume* prune_to = nullptr;  ///< instead of the outlines that the preset was grown into; not owned
+};
+
+/// Throws InputError, which opens with `name`, where the tree would be larger than growth allows.
+Plant grow_preset(const Preset& preset, const std::string& name, const PresetGrowth& growth = {});
+
+}  // namespace espalier
