@@ -21,6 +21,6 @@ set(DOXYGEN_SHOW_INCLUDE_FILES NO)
 set(DOXYGEN_HAVE_DOT NO)
 set(DOXYGEN_QUIET YES)
 set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
-set(DOXYGEN_FILTER_PATTERNS "*.h=\"sed -f ${PROJECT_SOURCE_DIR}/docs/doxygen/header.sed\""
-                            "*.md=\"sed -f ${PROJECT_SOURCE_DIR}/docs/doxygen/page.sed\"")
+set(DOXYGEN_FILTER_PATTERNS "*.h=sed -f ${PROJECT_SOURCE_DIR}/docs/doxygen/header.sed"
+                            "*.md=sed -f ${PROJECT_SOURCE_DIR}/docs/doxygen/page.sed")
 doxygen_add_docs(docs src fitting experiments docs COMMENT "Pages of all headers: ${PROJECT_BINARY_DIR}/docs/html")

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kDrawnTargetPx = 512;
-constexpr double kShortestTree_m = 0.01;
+constexpr double kShortestTreeM = 0.01;
 
 /// A target as fits see it: a picture, and how tall its tree is where that is known.
 struct ReadyTarget {
@@ -37,7 +37,7 @@ ReadyTarget draw_target(const TargetDeclaration& target, const fs::path& directo
     throw_input_error("target '{}': got a tree beyond the growth budget, expected a smaller one",
                       target.name);
   const Bounds box = bounds(plant);
-  if (!(box.upper.z > kShortestTree_m))
+  if (!(box.upper.z > kShortestTreeM))
     throw_input_error("target '{}': got a tree without height, expected one to draw", target.name);
   Mask mask;
   make_embree_renderer()->draw(plant, frame_bounds(box, {}, kDrawnTargetPx, kDrawnTargetPx), mask);

@@ -8,7 +8,7 @@ namespace espalier {
 
 FitTask with_finer_views(const FitRecord& record, const FitTask& task, SizedTasks& sized) {
   FitTask finer = task;
-  const int size_px = std::min(2 * record.target.size_px, kFullSize_px);
+  const int size_px = std::min(2 * record.target.size_px, kFullSizePx);
   if (size_px <= record.target.size_px) return finer;
   for (const TargetView& view : sized.at(size_px).views) finer.views.push_back(view);
   return finer;

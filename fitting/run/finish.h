@@ -10,7 +10,7 @@
 namespace espalier {
 
 /// The task, which looks at its pictures at their own size and at twice that, but no larger than
-/// kFullSize_px: the views of a larger search are left as they are. Throws InputError where the pictures can
+/// kFullSizePx: the views of a larger search are left as they are. Throws InputError where the pictures can
 /// no longer be read.
 FitTask with_finer_views(const FitRecord& record, const FitTask& task, SizedTasks& sized);
 

@@ -60,8 +60,7 @@ std::vector<Solution> FitRun::refinement_starts() {
                           scorer_.best().score};
   std::vector<Solution> starts{searched};
   if (record_.stages.tracing && state_.kind == KindChoice::leafless)
-    starts.push_back(
-        trace_branches(sized_tasks_.at(kFullSize_px), {.key = root_key(record_.seed)}, searched));
+    starts.push_back(trace_branches(sized_tasks_.at(kFullSizePx), {.key = root_key(record_.seed)}, searched));
   return starts;
 }
 

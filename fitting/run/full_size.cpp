@@ -7,7 +7,7 @@ namespace espalier {
 
 std::optional<FullSize> look_at_full_size(const FitRecord& record, const FitTask& task, SizedTasks& sized,
                                           const Solution& solution) try {
-  FitTask full = sized.at(std::max(kFullSize_px, record.target.size_px));
+  FitTask full = sized.at(std::max(kFullSizePx, record.target.size_px));
   full.growth = task.growth;
   std::vector<Mask> best = draw_candidate(full, solution.values, *full.make_renderer(), solution.overrides);
   FullSize seen{mean_metrics(full, best), std::move(best), {}};

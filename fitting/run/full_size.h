@@ -12,7 +12,7 @@
 namespace espalier {
 
 /// Side of the masks, unless the search looked at larger ones.
-inline constexpr int kFullSize_px = 512;
+inline constexpr int kFullSizePx = 512;
 
 struct FullSize {
   MaskMetrics metrics;

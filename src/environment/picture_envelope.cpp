@@ -195,7 +195,7 @@ std::unique_ptr<Volume> make_picture_volume(const std::filesystem::path& path) {
   return make_picture_envelope({{camera, mask}});
 }
 
-std::unique_ptr<Volume> make_picture_envelope(std::vector<PictureOutline> outlines) {
+std::unique_ptr<Volume> make_picture_envelope(const std::vector<PictureOutline>& outlines) {
   for (const PictureOutline& picture : outlines)
     if (area_px(picture.outline) == 0)
       throw_input_error("envelope: got an empty outline, expected a picture of a tree");

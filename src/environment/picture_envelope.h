@@ -18,7 +18,7 @@ struct PictureOutline {
 };
 
 /// Throws InputError where an outline is empty.
-std::unique_ptr<Volume> make_picture_envelope(std::vector<PictureOutline> outlines);
+std::unique_ptr<Volume> make_picture_envelope(const std::vector<PictureOutline>& outlines);
 
 /// The volume of one picture of a shape, seen from the front, 1 m high, its lowest row on the ground and the
 /// picture's middle at the origin. Throws InputError for what is no readable picture, or shows nothing.

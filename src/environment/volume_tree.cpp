@@ -18,54 +18,54 @@ struct Kind {
   std::string_view name, form;
   bool has_file;
   std::size_t numbers, min_parts, max_parts;
-  VolumePtr (*make)(const Numbers&, Parts);
+  VolumePtr (*make)(const Numbers&, Parts&&);
 };
 
 constexpr std::array<Kind, 15> kKinds{{
     {"box", "box(x,y,z, sx,sy,sz)", false, 6, 0, 0,
-     [](const Numbers& n, Parts) -> VolumePtr {
+     [](const Numbers& n, Parts&&) -> VolumePtr {
        return make_box({n[0], n[1], n[2]}, {n[3], n[4], n[5]});
      }},
     {"ball", "ball(x,y,z, r)", false, 4, 0, 0,
-     [](const Numbers& n, Parts) -> VolumePtr {
+     [](const Numbers& n, Parts&&) -> VolumePtr {
        return make_ball({n[0], n[1], n[2]}, n[3]);
      }},
     {"cylinder", "cylinder(x,y,z, r,h)", false, 5, 0, 0,
-     [](const Numbers& n, Parts) -> VolumePtr {
+     [](const Numbers& n, Parts&&) -> VolumePtr {
        return make_cylinder({n[0], n[1], n[2]}, n[3], n[4]);
      }},
     {"ellipsoid", "ellipsoid(x,y,z, rx,ry,rz)", false, 6, 0, 0,
-     [](const Numbers& n, Parts) -> VolumePtr {
+     [](const Numbers& n, Parts&&) -> VolumePtr {
        return make_ellipsoid({n[0], n[1], n[2]}, {n[3], n[4], n[5]});
      }},
     {"line", "line(x,y,z, x,y,z, r,r)", false, 8, 0, 0,
-     [](const Numbers& n, Parts) -> VolumePtr {
+     [](const Numbers& n, Parts&&) -> VolumePtr {
        return make_line({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6], n[7]);
      }},
     {"spiral", "spiral(x,y,z, height,turns, r,tube, shrink)", false, 8, 0, 0,
-     [](const Numbers& n, Parts) -> VolumePtr {
+     [](const Numbers& n, Parts&&) -> VolumePtr {
        return make_spiral({{n[0], n[1], n[2]}, n[3], n[4], n[5], n[6], n[7]});
      }},
     {"mesh", "mesh(\"file.obj\")", true, 0, 0, 0,
-     [](const Numbers&, Parts parts) -> VolumePtr { return parts[0]; }},
+     [](const Numbers&, Parts&& parts) -> VolumePtr { return parts[0]; }},
     {"picture", "picture(\"file.png\", height)", true, 1, 0, 0,
-     [](const Numbers& n, Parts parts) -> VolumePtr { return make_scaled(n[0], parts[0]); }},
+     [](const Numbers& n, Parts&& parts) -> VolumePtr { return make_scaled(n[0], parts[0]); }},
     {"union", "union(volume, …)", false, 0, 1, kMany,
-     [](const Numbers&, Parts parts) -> VolumePtr { return make_union(std::move(parts)); }},
+     [](const Numbers&, Parts&& parts) -> VolumePtr { return make_union(std::move(parts)); }},
     {"intersection", "intersection(volume, …)", false, 0, 1, kMany,
-     [](const Numbers&, Parts parts) -> VolumePtr { return make_intersection(std::move(parts)); }},
+     [](const Numbers&, Parts&& parts) -> VolumePtr { return make_intersection(std::move(parts)); }},
     {"difference", "difference(volume, taken_away, …)", false, 0, 2, kMany,
-     [](const Numbers&, Parts parts) -> VolumePtr { return make_difference(std::move(parts)); }},
+     [](const Numbers&, Parts&& parts) -> VolumePtr { return make_difference(std::move(parts)); }},
     {"blend", "blend(width, volume, volume, …)", false, 1, 1, kMany,
-     [](const Numbers& n, Parts parts) -> VolumePtr { return make_blend(n[0], std::move(parts)); }},
+     [](const Numbers& n, Parts&& parts) -> VolumePtr { return make_blend(n[0], std::move(parts)); }},
     {"moved", "moved(x,y,z, volume)", false, 3, 1, 1,
-     [](const Numbers& n, Parts parts) -> VolumePtr {
+     [](const Numbers& n, Parts&& parts) -> VolumePtr {
        return make_moved({n[0], n[1], n[2]}, parts[0]);
      }},
     {"scaled", "scaled(factor, volume)", false, 1, 1, 1,
-     [](const Numbers& n, Parts parts) -> VolumePtr { return make_scaled(n[0], parts[0]); }},
+     [](const Numbers& n, Parts&& parts) -> VolumePtr { return make_scaled(n[0], parts[0]); }},
     {"turned", "turned(degrees, volume)", false, 1, 1, 1,
-     [](const Numbers& n, Parts parts) -> VolumePtr { return make_turned(n[0], parts[0]); }},
+     [](const Numbers& n, Parts&& parts) -> VolumePtr { return make_turned(n[0], parts[0]); }},
 }};
 
 const Kind* find_kind(std::string_view name) {

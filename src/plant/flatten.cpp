@@ -9,7 +9,7 @@ namespace espalier {
 
 namespace {
 
-constexpr float kSamePoint_m = 1e-6f;
+constexpr float kSamePointM = 1e-6f;
 constexpr float kMostSteps = 1024;
 
 struct Segment {
@@ -40,7 +40,7 @@ void fill_colors(const Knots& knots, std::size_t segment, Polyline& polyline) {
 }
 
 void append_point(Vec3 point_m, float radius_m, Polyline& polyline) {
-  if (polyline.size() > 0 && length(point_m - polyline.point_m.back()) < kSamePoint_m) {
+  if (polyline.size() > 0 && length(point_m - polyline.point_m.back()) < kSamePointM) {
     polyline.radius_m.back() = radius_m;
     return;
   }

@@ -38,6 +38,7 @@ std::vector<TextureCoordinate> box_coordinates(const std::vector<Vec3>& vertices
   const auto [foot, tip] =
       std::minmax_element(vertices.begin(), vertices.end(), [](Vec3 a, Vec3 b) { return a.y < b.y; });
   std::vector<TextureCoordinate> texture;
+  texture.reserve(vertices.size());
   for (const Vec3 p : vertices)
     texture.push_back({(p.x - left->x) / (right->x - left->x), (p.y - foot->y) / (tip->y - foot->y)});
   return texture;

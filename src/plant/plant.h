@@ -15,7 +15,7 @@ namespace espalier {
 struct PartColor {
   std::uint8_t r = 0, g = 0, b = 0;
   bool is_set = false;
-  auto operator<=>(const PartColor&) const = default;
+  auto operator<=>(const PartColor&) const = default;  // NOLINT(modernize-use-nullptr): of its own 0
 };
 
 enum class LeafKind : std::uint8_t { leaf, blossom };

@@ -9,7 +9,7 @@ namespace espalier {
 
 namespace {
 
-constexpr float kPointRadius_m = 1e-5f;
+constexpr float kPointRadiusM = 1e-5f;
 
 /// One ring of the tube: `side` and `tangent` are unit vectors at a right angle.
 struct Ring {
@@ -17,7 +17,7 @@ struct Ring {
   float radius_m, slope;  ///< slope: change of radius per length
   float v;                ///< texture coordinate along the stem
 
-  bool is_point() const { return radius_m < kPointRadius_m; }
+  bool is_point() const { return radius_m < kPointRadiusM; }
 };
 
 /// The tangent at each point halves the angle between its chords.
@@ -51,7 +51,7 @@ float slope_at(const Polyline& line, std::size_t i) {
 
 std::vector<Ring> make_rings(const Polyline& line) {
   const float thickest_m = *std::max_element(line.radius_m.begin(), line.radius_m.end());
-  const float circumference_m = 2 * std::numbers::pi_v<float> * std::max(thickest_m, kPointRadius_m);
+  const float circumference_m = 2 * std::numbers::pi_v<float> * std::max(thickest_m, kPointRadiusM);
   std::vector<Ring> rings;
   rings.reserve(line.size());
   float along_m = 0;

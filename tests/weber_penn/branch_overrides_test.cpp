@@ -15,7 +15,7 @@
 namespace espalier {
 namespace {
 
-constexpr float kRounding_m = 1e-4f;  ///< of trees some ten metres tall
+constexpr float kRoundingM = 1e-4f;  ///< of trees some ten metres tall
 
 /// A stem and its leaves do not matter; its curve and radii do.
 struct Curve {
@@ -26,7 +26,7 @@ struct Curve {
 
 /// Up to the rounding of floats: vectors grow plain stems, the plain formulas those beside an override.
 bool are_near(const Curve& a, const Curve& b) {
-  const auto same_place = [](Vec3 p, Vec3 q) { return length(p - q) < kRounding_m; };
+  const auto same_place = [](Vec3 p, Vec3 q) { return length(p - q) < kRoundingM; };
   const auto same_radius = [](float p, float q) { return std::fabs(p - q) < 1e-6f; };
   return std::ranges::equal(a.points, b.points, same_place) &&
          std::ranges::equal(a.radii, b.radii, same_radius);

@@ -147,7 +147,7 @@ void print_result(const FitResult& result, const FitRecord& record, const fs::pa
              name_of(result.stopped_by), result.best_start);
   if (const auto& full = result.full_size_metrics)
     fmt::print("at {} px: IoU {:.4f}, tolerant IoU {:.4f}, outline IoU {:.4f}, gap IoU {:.4f}\n",
-               std::max(kFullSize_px, record.target.size_px), (*full)["iou"], (*full)["tolerant_iou"],
+               std::max(kFullSizePx, record.target.size_px), (*full)["iou"], (*full)["tolerant_iou"],
                (*full)["outline_iou"], (*full)["gap_iou"]);
   if (result.failures.count > 0)
     fmt::print(stderr, "{} candidates failed and counted as the worst; the first: {}\n",

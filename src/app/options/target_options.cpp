@@ -7,7 +7,7 @@
 namespace espalier {
 
 std::shared_ptr<TargetOptions> add_target_options(CLI::App& command) {
-  const auto options = std::make_shared<TargetOptions>();
+  auto options = std::make_shared<TargetOptions>();
   command
       .add_option_function<std::string>(
           "--method",

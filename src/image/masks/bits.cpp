@@ -1,5 +1,6 @@
 // Bits are counted a vector at a time (Highway): baseline x86-64 has no instruction that counts them.
 #undef HWY_TARGET_INCLUDE
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a name of a file
 #define HWY_TARGET_INCLUDE <espalier/image/masks/bits.cpp>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>

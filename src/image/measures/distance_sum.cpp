@@ -4,6 +4,7 @@
 // looking at borders. Pixels may grow beyond the picture within its last words: no shortest path of the
 // octagonal distance needs them, and nothing counts there.
 #undef HWY_TARGET_INCLUDE
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a name of a file
 #define HWY_TARGET_INCLUDE <espalier/image/measures/distance_sum.cpp>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>

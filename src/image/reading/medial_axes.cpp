@@ -10,7 +10,7 @@ namespace espalier {
 
 namespace {
 
-constexpr float kBand_px = 2;
+constexpr float kBandPx = 2;
 
 float distance_px(PixelPoint a, PixelPoint b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
@@ -41,12 +41,13 @@ class DistanceFromFoot {
 
   int index(int x, int y) const { return y * width_ + x; }
   PixelPoint point(int pixel) const {
-    return {static_cast<float>(pixel % width_) + 0.5f, static_cast<float>(pixel / width_) + 0.5f};
+    const int x = pixel % width_, y = pixel / width_;
+    return {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
   }
   /// Band of the pixel; -1 where no path leads.
   int band(int pixel) const {
     const float distance = distance_[static_cast<std::size_t>(pixel)];
-    return std::isfinite(distance) ? static_cast<int>(distance / kBand_px) : -1;
+    return std::isfinite(distance) ? static_cast<int>(distance / kBandPx) : -1;
   }
   int before(int pixel) const { return before_[static_cast<std::size_t>(pixel)]; }
   int width() const { return width_; }
@@ -238,7 +239,7 @@ class AxisTracer {
       pixels.push_back(piece(along[i]).pixels);
     const auto middle = pixels.begin() + static_cast<std::ptrdiff_t>(pixels.size() / 2);
     std::nth_element(pixels.begin(), middle, pixels.end());
-    return static_cast<float>(*middle) / kBand_px;
+    return static_cast<float>(*middle) / kBandPx;
   }
 
   void trace_children(int parent) {
@@ -252,7 +253,7 @@ class AxisTracer {
       if (i > 0) at_px += distance_px(piece(along[i - 1]).middle, piece(along[i]).middle);
       for (const int next : piece(along[i]).above) {
         const float reach_px = piece(next).reach_px + distance_px(piece(along[i]).middle, piece(next).middle);
-        const float inside_px = 0.5f * static_cast<float>(piece(along[i]).pixels) / kBand_px;
+        const float inside_px = 0.5f * static_cast<float>(piece(along[i]).pixels) / kBandPx;
         if (next == piece(along[i]).on || reach_px - inside_px < shortest_px_) continue;
         follow(next, parent, at_px / whole_px);
       }

@@ -11,7 +11,7 @@ namespace {
 /// An id is followed by a colon at once; the colon before a condition has a space before it.
 std::string parse_id(Cursor& cursor) {
   const std::size_t begin = cursor.at();
-  const std::string word(cursor.take_word());
+  std::string word(cursor.take_word());
   if (!word.empty() && cursor.rest().starts_with(':')) {
     cursor.go_to(cursor.at() + 1);
     return word;

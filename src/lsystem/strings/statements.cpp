@@ -62,7 +62,7 @@ class Splitter {
 
 }  // namespace
 
-FileText split_statements(std::shared_ptr<const Source> source) {
+FileText split_statements(const std::shared_ptr<const Source>& source) {
   FileText file{source, std::string(source->text.size(), ' '), {}};
   const std::string_view text = source->text;
   Splitter splitter(file);

@@ -22,7 +22,7 @@ struct FileText {
   std::vector<Statement> statements;
 };
 
-FileText split_statements(std::shared_ptr<const Source> source);
+FileText split_statements(const std::shared_ptr<const Source>& source);
 
 /// Reads a stretch of a file from left to right.
 class Cursor {

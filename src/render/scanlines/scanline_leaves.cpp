@@ -4,6 +4,7 @@
 // at, those of many small leaves together. Vector code is written once with Highway, with products and sums
 // rounded apart, so that all instruction sets give the same bits.
 #undef HWY_TARGET_INCLUDE
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a name of a file
 #define HWY_TARGET_INCLUDE <espalier/render/scanlines/scanline_leaves.cpp>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>

@@ -4,6 +4,7 @@
 // points at a time, and drawn a vector of cones at a time. All else takes the plain path, with the same
 // formulas.
 #undef HWY_TARGET_INCLUDE
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a name of a file
 #define HWY_TARGET_INCLUDE <espalier/render/scanlines/scanline_stems.cpp>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>

@@ -140,8 +140,8 @@ bool shorten(GrowingStem& stem, float shortest, const WeberPennParameters& p, co
 void train_stem(GrowingStem& stem, const WeberPennParameters& p, const Volume& volume) {
   GrowingStem trained = stem;
   if (!shorten(trained, kShortestUnbent, p, volume)) {
-    constexpr float kBends_deg[] = {25, -25, 50, -50, 80, -80, 120, -120};
-    for (const float bend_deg : kBends_deg) {
+    constexpr float kBendsDeg[] = {25, -25, 50, -50, 80, -80, 120, -120};
+    for (const float bend_deg : kBendsDeg) {
       trained = stem;
       trained.extra_curve.whole_deg += bend_deg;
       if (shorten(trained, kShortestUnbent, p, volume)) break;

@@ -1,5 +1,6 @@
 // Knots of many stems, see curve_knots.h. A knot's handles are a third of a segment away on both sides.
 #undef HWY_TARGET_INCLUDE
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a name of a file
 #define HWY_TARGET_INCLUDE <espalier/weber_penn/simd/curve_knots.cpp>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>

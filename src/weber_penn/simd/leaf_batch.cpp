@@ -1,5 +1,6 @@
 // Placing leaves, see leaf_batch.h. Equations as in leaf_placement.cpp.
 #undef HWY_TARGET_INCLUDE
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a name of a file
 #define HWY_TARGET_INCLUDE <espalier/weber_penn/simd/leaf_batch.cpp>
 #include <hwy/foreach_target.h>
 // Highway's order: foreach_target before the files it compiles again.

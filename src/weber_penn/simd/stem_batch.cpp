@@ -1,5 +1,6 @@
 // The walk of stem_walk.cpp in vectors: every line is that of the plain walk, in the same order of roundings.
 #undef HWY_TARGET_INCLUDE
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a name of a file
 #define HWY_TARGET_INCLUDE <espalier/weber_penn/simd/stem_batch.cpp>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>

@@ -1,5 +1,6 @@
 // Making child stems, see twig_batch.h. Equations as in grow.cpp.
 #undef HWY_TARGET_INCLUDE
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a name of a file
 #define HWY_TARGET_INCLUDE <espalier/weber_penn/simd/twig_batch.cpp>
 #include <hwy/foreach_target.h>
 // Highway's order: foreach_target before the files it compiles again.

@@ -79,7 +79,7 @@ TEST(StagedFit, ThePresetItLeavesGrowsTheSamePicture) {
     fit(record, run);
     const Mask mask = regrown(run, record.target.size_px).mask;
     EXPECT_EQ(differing_px(mask, read_mask(run / "best.png").mask), 0u) << "trained: " << train;
-    const Regrown full = regrown(run, kFullSize_px);
+    const Regrown full = regrown(run, kFullSizePx);
     const MaskMetrics metrics = compare_masks(full.mask, full.target);
     const auto reported = summary_of(run)["full_size"];
     EXPECT_NEAR(reported["iou"], metrics["iou"], 1e-6) << "trained: " << train;

@@ -17,7 +17,7 @@ Eigen::Vector2d random_point(std::uint32_t index) {
 
 TEST(SpacePlant, EveryPointOfThePlaneGrowsWithinTheBudget) {
   constexpr std::uint32_t kPoints = 1000;
-  const GrowthBudget budget{1'500, 6'000};  // a fit's
+  const GrowthBudget budget{1'500, 6'000};  // less than a fit's
   for (const char* encoding : {"monotone", "raw"}) {
     const SpeciesSpace space = make_species_space(load_presets({}), encoding, 2);
     Plant plant;
