@@ -15,7 +15,8 @@ namespace espalier {
 
 namespace {
 
-using Masks = std::vector<Mask>;  ///< one a view
+/// One a view; then, where the task expects leaves, what leaves cover of each.
+using Masks = std::vector<Mask>;
 
 constexpr double kFirstSigma = 0.15;  ///< of the evolution strategy, and after it has narrowed to the least
 
@@ -32,7 +33,8 @@ Branch read_branch(const BranchPath& path, const Overrides& overrides) {
 /// Draws plants and parts of them.
 class Drawer {
  public:
-  explicit Drawer(const FitTask& task) : task_(task), renderer_(task.make_renderer()) {}
+  explicit Drawer(const FitTask& task)
+      : task_(task), has_leaves_(expects_leaves(task)), renderer_(task.make_renderer()) {}
 
   bool draw(const Solution& solution, const PlantPart* part, Masks& masks) {
     const ChangeGraph graph(solution.overrides);
@@ -40,12 +42,18 @@ class Drawer {
     growth.changes = &graph;
     growth.only_part = part;
     plant_.clear();
-    masks.resize(task_.views.size());
+    const std::size_t views = task_.views.size();
+    masks.resize(has_leaves_ ? 2 * views : views);
     const bool grown = task_.model->generate(solution.values, solution.plant_seed, growth, plant_).grown;
-    for (std::size_t i = 0; i < masks.size(); ++i) {
+    for (std::size_t i = 0; i < views; ++i) {
       const Camera& camera = task_.views[i].camera;
       masks[i].reset(camera.width_px, camera.height_px);
-      if (grown) renderer_->draw(plant_, camera, masks[i]);
+      if (has_leaves_) masks[views + i].reset(camera.width_px, camera.height_px);
+      if (!grown) continue;
+      if (has_leaves_)
+        renderer_->draw_apart(plant_, camera, masks[i], masks[views + i]);
+      else
+        renderer_->draw(plant_, camera, masks[i]);
     }
     return grown;
   }
@@ -53,15 +61,14 @@ class Drawer {
 
  private:
   const FitTask& task_;
+  bool has_leaves_;
   std::unique_ptr<SilhouetteRenderer> renderer_;
   Plant plant_;
 };
 
-double mean_dissimilarity(const FitTask& task, const Masks& masks) {
-  double sum = 0;
-  for (std::size_t i = 0; i < masks.size(); ++i)
-    sum += dissimilarity(task.objective, masks[i], task.views[i].target);
-  return sum / static_cast<double>(masks.size());
+double score_of_drawn(const FitTask& task, const Masks& masks) {
+  const std::span all(masks);
+  return score_of_masks(task, all.first(task.views.size()), all.subspan(task.views.size()));
 }
 
 double price_of_numbers(const FitTask& task, const Solution& solution) {
@@ -157,7 +164,7 @@ class Refinement {
   double score(const Masks& rest, const Branch& branch) {
     joined_ = rest;
     join(joined_, branch.masks);
-    return mean_dissimilarity(task_, joined_);
+    return score_of_drawn(task_, joined_);
   }
 
   Branch mutated(const Branch& branch) {
@@ -226,7 +233,7 @@ class Refinement {
     });
     Masks masks;
     drawer_.draw(solution_, nullptr, masks);
-    solution_.score = mean_dissimilarity(task_, masks) + price_of_numbers(task_, solution_);
+    solution_.score = score_of_drawn(task_, masks) + price_of_numbers(task_, solution_);
   }
 
   const FitTask& task_;
@@ -245,7 +252,7 @@ class Refinement {
 double score_of(const FitTask& task, const Solution& solution) {
   Masks masks;
   Drawer(task).draw(solution, nullptr, masks);
-  return mean_dissimilarity(task, masks);
+  return score_of_drawn(task, masks);
 }
 
 double priced_score_of(const FitTask& task, const Solution& solution) {

@@ -59,6 +59,8 @@ struct FitRecord {
   KindChoice kind = KindChoice::any;  ///< of tree
   bool train_to_target = false;       ///< keep the tree inside of the pictures' outlines
   std::optional<double> height_m;
+  double bare_wood_price =
+      0.2;  ///< of leafy trees: added to a dissimilarity where only wood covers the crown
   /// Of single branches [fitting/record/freedom.h]; none: as the kind of tree needs it.
   std::optional<double> freedom;
   std::map<std::string, std::string> versions;  ///< of the program and its libraries

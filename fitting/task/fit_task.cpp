@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -34,6 +35,35 @@ std::vector<Mask> draw_candidate(const FitTask& task, const ParameterValues& val
     }
   }
   return masks;
+}
+
+namespace {
+
+/// Share of the crown's pixels that wood covers and no leaf does.
+double bare_share(const Mask& crown, const Mask& mask, const Mask& leaves) {
+  std::size_t bare = 0;
+  for (std::size_t i = 0; i < crown.words().size(); ++i)
+    bare += static_cast<std::size_t>(std::popcount(crown.words()[i] & mask.words()[i] & ~leaves.words()[i]));
+  return static_cast<double>(bare) / static_cast<double>(area_px(crown));
+}
+
+}  // namespace
+
+double score_of_masks(const FitTask& task, std::span<const Mask> masks, std::span<const Mask> leaves) {
+  double sum = 0;
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    const TargetView& view = task.views[i];
+    sum += dissimilarity(task.objective, masks[i], view.target);
+    if (task.bare_wood_price > 0 && area_px(view.crown) > 0)
+      sum += task.bare_wood_price * bare_share(view.crown, masks[i], leaves[i]);
+  }
+  return sum / static_cast<double>(masks.size());
+}
+
+bool expects_leaves(const FitTask& task) {
+  return task.bare_wood_price > 0 &&
+         std::any_of(task.views.begin(), task.views.end(),
+                     [](const TargetView& view) { return area_px(view.crown) > 0; });
 }
 
 MaskMetrics mean_metrics(const FitTask& task, const std::vector<Mask>& masks) {

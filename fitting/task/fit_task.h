@@ -3,6 +3,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <espalier/core/random.h>
@@ -28,6 +29,7 @@ struct TargetView {
   PreparedTarget target;
   float metres_per_px = 0;  ///< in the plane through the base
   PictureReading reading;   ///< what the mask says of its tree
+  Mask crown = {};          ///< where leaves are expected; empty: nowhere
 };
 
 /// A target mask whose tree, `tree_height_px` tall with its base at base_row_px, is `height_m` tall. Reads
@@ -43,6 +45,7 @@ struct FitTask {
   std::shared_ptr<const Volume> envelope;      ///< what growth.prune_to points to, if the tree is trained
   Overrides overrides;                         ///< of every candidate of the search
   std::shared_ptr<const ChangeGraph> changes;  ///< the same, which growth.changes points to
+  double bare_wood_price = 0;                  ///< in dissimilarity, of a crown that wood alone covers
   Freedom freedom;                             ///< of single branches
   RendererFactory make_renderer = make_scanline_renderer;
   std::vector<std::string> warnings;  ///< what its pictures leave to be desired, a line each
@@ -58,6 +61,14 @@ inline std::vector<Mask> draw_candidate(const FitTask& task, const ParameterValu
                                         SilhouetteRenderer& renderer) {
   return draw_candidate(task, values, renderer, task.overrides);
 }
+
+/// What a candidate is searched by, of its silhouettes in all views and of what leaves cover of them: the
+/// mean of the objective and, where leaves are expected, of the price for the pixels that only wood covers.
+/// `leaves` is only looked at in views that expect some. In [0, 1 + bare_wood_price], 0 is best.
+double score_of_masks(const FitTask& task, std::span<const Mask> masks, std::span<const Mask> leaves);
+
+/// Whether leaves are drawn apart for it.
+bool expects_leaves(const FitTask& task);
 
 /// All metrics, averaged over masks in the order of draw_candidate.
 MaskMetrics mean_metrics(const FitTask& task, const std::vector<Mask>& masks);

@@ -28,8 +28,10 @@ PlantScorer::PlantScorer(const FitTask& task, int threads)
 void PlantScorer::prepare(Worker& worker) const {
   worker.renderer = task_.make_renderer();
   worker.masks.resize(task_.views.size());
+  if (expects_leaves(task_)) worker.leaves.resize(task_.views.size());
   for (std::size_t i = 0; i < task_.views.size(); ++i)
-    worker.drawn_views.push_back({&task_.views[i].camera, &worker.masks[i]});
+    worker.drawn_views.push_back(
+        {&task_.views[i].camera, &worker.masks[i], worker.leaves.empty() ? nullptr : &worker.leaves[i]});
 }
 
 double PlantScorer::score_one(const ParameterValues& values, Seed seed, Worker& worker) const {
@@ -40,10 +42,7 @@ double PlantScorer::score_one(const ParameterValues& values, Seed seed, Worker& 
   const GrowthResult growth = grow_and_draw(*task_.model, values, seed, task_.growth, *worker.renderer,
                                             worker.drawn_views, worker.plant);
   if (!growth.grown) return over_budget_penalty(growth.over_budget_factor);
-  double sum = 0;
-  for (std::size_t i = 0; i < task_.views.size(); ++i)
-    sum += dissimilarity(task_.objective, worker.masks[i], task_.views[i].target);
-  return sum / static_cast<double>(task_.views.size());
+  return score_of_masks(task_, worker.masks, worker.leaves);
 }
 
 /// True where a seed of the candidate failed. Throws what is not to be forgiven.

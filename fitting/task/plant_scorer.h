@@ -38,7 +38,7 @@ class PlantScorer : public Scorer {
   struct Worker {
     std::unique_ptr<SilhouetteRenderer> renderer;
     Plant plant;
-    std::vector<Mask> masks;  ///< of each view
+    std::vector<Mask> masks, leaves;  ///< of each view; leaves where the task expects some
     std::vector<SilhouetteView> drawn_views;
   };
   void prepare(Worker& worker) const;

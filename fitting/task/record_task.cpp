@@ -1,5 +1,6 @@
 #include <espalier/core/field_error.h>
 #include <espalier/environment/picture_envelope.h>
+#include <espalier/fitting/picture/crown.h>
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/fitting/task/trunk_room.h>
 #include <espalier/image/reading/read_target.h>
@@ -20,6 +21,12 @@ std::uint64_t hash_target(const TargetPicture& target, std::uint64_t hash) {
   return hash;
 }
 
+/// Of a tree that is leafy, as the record says or the first picture shows.
+void expect_leaves(const FitRecord& record, TreeKind seen, TargetView& view) {
+  const KindChoice kind = record.kind == KindChoice::automatic ? choice_of(seen) : record.kind;
+  if (kind == KindChoice::leafy) view.crown = crown_of(view.target.mask(), view.reading);
+}
+
 /// Reads the pictures into the task and their hash into the record.
 void read_views(FitRecord& record, FitTask& task) {
   std::uint64_t hash = 0xcbf29ce484222325ull;
@@ -30,6 +37,7 @@ void read_views(FitRecord& record, FitTask& task) {
       task.warnings.push_back(fmt::format("{}: {}", view.picture.string(), fault));
     task.views.push_back(
         make_target_view(target.mask, target.tree_height_px, view.view, target_height_m(record)));
+    expect_leaves(record, task.views.front().reading.kind, task.views.back());
   }
   const std::string hash_text = fmt::format("{:016x}", hash);
   if (!record.target_hash.empty() && record.target_hash != hash_text)
@@ -67,6 +75,7 @@ FitTask make_task(FitRecord& record, const Model* model) {
   task.growth.budget = record.growth;
   task.objective = parse_objective(record.objective);
   for (int i = 0; i < record.fit_seeds; ++i) task.plant_seeds.push_back(record.seed + static_cast<Seed>(i));
+  task.bare_wood_price = record.bare_wood_price;
   read_views(record, task);
   if (record.train_to_target && !task.model->can_train())
     throw_field_error("train_to_target",

@@ -20,6 +20,13 @@ class LeafPen : public LeafSink {
   std::span<const SilhouetteView> views_;
 };
 
+void draw_view(SilhouetteRenderer& renderer, const Plant& plant, const SilhouetteView& view) {
+  if (view.leaves)
+    renderer.draw_apart(plant, *view.camera, *view.mask, *view.leaves);
+  else
+    renderer.draw(plant, *view.camera, *view.mask);
+}
+
 }  // namespace
 
 GrowthResult grow_and_draw(const Model& model, std::span<const double> values, Seed seed,
@@ -33,7 +40,7 @@ GrowthResult grow_and_draw(const Model& model, std::span<const double> values, S
   if (!in_parts) {
     const GrowthResult result = model.generate(values, seed, settings, plant);
     if (result.grown)
-      for (const SilhouetteView& view : views) renderer.draw(plant, *view.camera, *view.mask);
+      for (const SilhouetteView& view : views) draw_view(renderer, plant, view);
     return result;
   }
   for (const SilhouetteView& view : views) view.mask->reset(view.camera->width_px, view.camera->height_px);
@@ -42,7 +49,7 @@ GrowthResult grow_and_draw(const Model& model, std::span<const double> values, S
   with_pen.leaf_sink = &pen;
   const GrowthResult result = model.generate(values, seed, with_pen, plant);
   if (result.grown)
-    for (const SilhouetteView& view : views) parts->add_plant(plant, *view.camera, *view.mask);
+    for (const SilhouetteView& view : views) parts->add_plant(plant, *view.camera, *view.mask, view.leaves);
   return result;
 }
 

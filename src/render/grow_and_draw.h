@@ -11,7 +11,8 @@ namespace espalier {
 /// Where one view of the plant goes; neither is owned.
 struct SilhouetteView {
   const Camera* camera = nullptr;
-  Mask* mask = nullptr;  ///< gets the camera's size
+  Mask* mask = nullptr;    ///< gets the camera's size
+  Mask* leaves = nullptr;  ///< unless null: what leaves and blossoms cover of it
 };
 
 /// Grows into `plant`, and draws it into all views. Afterwards the plant may lack leaves. Where the growth

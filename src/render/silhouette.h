@@ -15,7 +15,8 @@ class SilhouetteParts {
  public:
   virtual ~SilhouetteParts() = default;
   virtual void add_leaves(const LeafColumns& leaves, const Camera& camera, Mask& mask) = 0;
-  virtual void add_plant(const Plant& plant, const Camera& camera, Mask& mask) = 0;
+  /// Draws what is left of the plant. `leaves`, unless null, gets what leaves and blossoms cover.
+  virtual void add_plant(const Plant& plant, const Camera& camera, Mask& mask, Mask* leaves) = 0;
 };
 
 class SilhouetteRenderer {
@@ -23,6 +24,8 @@ class SilhouetteRenderer {
   virtual ~SilhouetteRenderer() = default;
   /// Draws `plant` into `mask`, which gets the camera's size. Not thread-safe: one renderer a thread.
   virtual void draw(const Plant& plant, const Camera& camera, Mask& mask) = 0;
+  /// The same, and in `leaves` what leaves and blossoms cover of it, be it before or behind wood.
+  virtual void draw_apart(const Plant& plant, const Camera& camera, Mask& mask, Mask& leaves);
   /// What draws bit by bit; null where a renderer needs the whole plant at once.
   virtual SilhouetteParts* parts() { return nullptr; }
 };

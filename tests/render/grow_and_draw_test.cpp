@@ -48,6 +48,36 @@ TEST_P(GrowAndDraw, SetsThePixelsOfTheWholePlant) {
   }
 }
 
+/// A renderer that has no way of its own to draw leaves apart.
+struct DrawsWhole : SilhouetteRenderer {
+  std::unique_ptr<SilhouetteRenderer> renderer = make_scanline_renderer();
+  void draw(const Plant& plant, const Camera& camera, Mask& mask) override {
+    renderer->draw(plant, camera, mask);
+  }
+};
+
+TEST_P(GrowAndDraw, LeavesApartAreThePlantWithoutItsStems) {
+  const Subject subject(GetParam());
+  const Camera camera = subject.camera({.azimuth_deg = 20}, 128);
+  const auto renderer = make_scanline_renderer();
+  Plant foliage = subject.plant, rest;
+  foliage.stems = {};
+  foliage.knots = {};
+  Mask whole, leaves, mask, apart;
+  renderer->draw(subject.plant, camera, whole);
+  renderer->draw(foliage, camera, leaves);
+  const std::array views{SilhouetteView{&camera, &mask, &apart}};
+  grow_and_draw(subject.model, subject.preset.values, 3, {}, *renderer, views, rest);
+  EXPECT_EQ(mask, whole);
+  EXPECT_EQ(apart, leaves);
+  DrawsWhole other;
+  for (SilhouetteRenderer* drawing : std::array<SilhouetteRenderer*, 2>{renderer.get(), &other}) {
+    drawing->draw_apart(subject.plant, camera, mask, apart);
+    EXPECT_EQ(mask, whole);
+    EXPECT_EQ(apart, leaves);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Species, GrowAndDraw, testing::ValuesIn(bundled_presets()),
                          [](const auto& test) { return test.param; });
 

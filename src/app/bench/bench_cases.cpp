@@ -46,7 +46,7 @@ class TimedRenderer : public SilhouetteRenderer, private SilhouetteParts {
  public:
   void draw(const Plant& plant, const Camera& camera, Mask& mask) override {
     mask.reset(camera.width_px, camera.height_px);
-    add_plant(plant, camera, mask);
+    add_plant(plant, camera, mask, nullptr);
   }
   SilhouetteParts* parts() override { return this; }
 
@@ -59,9 +59,9 @@ class TimedRenderer : public SilhouetteRenderer, private SilhouetteParts {
     seconds += seconds_between(began, Clock::now());
     leaves += static_cast<double>(some.count);
   }
-  void add_plant(const Plant& plant, const Camera& camera, Mask& mask) override {
+  void add_plant(const Plant& plant, const Camera& camera, Mask& mask, Mask* foliage) override {
     const auto began = Clock::now();
-    renderer_->parts()->add_plant(plant, camera, mask);
+    renderer_->parts()->add_plant(plant, camera, mask, foliage);
     seconds += seconds_between(began, Clock::now());
     leaves += static_cast<double>(plant.leaves.size());
   }

@@ -14,7 +14,11 @@ class ScanlineRenderer final : public SilhouetteRenderer, private SilhouettePart
  public:
   void draw(const Plant& plant, const Camera& camera, Mask& mask) override {
     mask.reset(camera.width_px, camera.height_px);
-    add_plant(plant, camera, mask);
+    add_plant(plant, camera, mask, nullptr);
+  }
+  void draw_apart(const Plant& plant, const Camera& camera, Mask& mask, Mask& leaves) override {
+    mask.reset(camera.width_px, camera.height_px);
+    add_plant(plant, camera, mask, &leaves);
   }
   SilhouetteParts* parts() override { return this; }
 
@@ -22,9 +26,10 @@ class ScanlineRenderer final : public SilhouetteRenderer, private SilhouettePart
   void add_leaves(const LeafColumns& leaves, const Camera& camera, Mask& mask) override {
     draw_leaves(leaves, camera, mask);
   }
-  void add_plant(const Plant& plant, const Camera& camera, Mask& mask) override {
+  void add_plant(const Plant& plant, const Camera& camera, Mask& mask, Mask* leaves) override {
     draw_leaves(plant, camera, mask);
     draw_blossoms(plant, camera, mask);
+    if (leaves) *leaves = mask;
     draw_stems(plant, camera, mask);
   }
 };

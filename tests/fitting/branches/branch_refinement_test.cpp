@@ -5,6 +5,7 @@
 #include <espalier/fitting/branches/branch_offsets.h>
 #include <espalier/fitting/branches/branch_refinement.h>
 #include <espalier/fitting/branches/branch_rounds.h>
+#include <espalier/fitting/task/plant_scorer.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 #include <espalier/overrides/overrides_toml.h>
@@ -110,6 +111,20 @@ TEST(BranchRefinement, WithoutFreedomBranchesGetOtherNumbersOrGo) {
   for (const OverrideNode& node : refined.overrides.nodes)
     for (const Override& entry : node.set.overrides)
       EXPECT_TRUE(entry.quantity == Quantity::seed || entry.quantity == Quantity::removed);
+}
+
+/// The refinement counts what the search counts, branch by branch.
+TEST(BranchRefinement, LeavesAreSeenApartWhereTheTaskExpectsThem) {
+  SmallTask small;
+  small.task.bare_wood_price = 0.5;
+  small.task.views[0].crown = small.task.views[0].target.mask();
+  Solution solution = small.start();
+  double searched = 0;
+  PlantScorer(small.task, 1).score({&solution.values, 1}, {&searched, 1});
+  EXPECT_EQ(solution.score, searched);
+  refine_branches(small.task, settings_of(1, 1000), solution);
+  EXPECT_EQ(solution.score, score_of(small.task, solution));
+  EXPECT_LT(solution.score, searched);
 }
 
 TEST(BranchRefinement, ANumberThatGainsLessThanItsPriceIsNotKept) {

@@ -1,0 +1,10 @@
+// Where a leafy tree is to have leaves.
+#pragma once
+#include <espalier/fitting/picture/picture_reading.h>
+
+namespace espalier {
+
+/// The pixels of the mask above the height at which its crown begins.
+Mask crown_of(const Mask& mask, const PictureReading& reading);
+
+}  // namespace espalier
