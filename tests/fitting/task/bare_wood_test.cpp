@@ -59,7 +59,7 @@ TEST(BareWood, CostsNothingBesideTheCrownOrOnTheTrunk) {
   EXPECT_EQ(score_of_masks(task, {&outside, 1}, {&none, 1}), score_of_masks(free, {&outside, 1}, {}));
 }
 
-TEST(BareWood, IsExpectedOfOtherKindsOfTrees) {
+TEST(BareWood, IsNotLookedForOnOtherKindsOfTrees) {
   for (const KindChoice kind : {KindChoice::any, KindChoice::leafless, KindChoice::palm})
     EXPECT_FALSE(expects_leaves(task_of(kind, 1)));
   EXPECT_TRUE(expects_leaves(task_of(KindChoice::leafy, 1)));
