@@ -50,7 +50,8 @@ TEST(Allocation, NoneOnceWarm) {
     renderer->draw(plant, camera, mask);
     const PreparedTarget target(mask);
     const MaskObjective objective = parse_objective("0.5*truncated_distance+0.5*iou");
-    const std::array views{SilhouetteView{&camera, &mask}};
+    Mask leaves;
+    const std::array views{SilhouetteView{&camera, &mask, &leaves}};
     const auto evaluate = [&](Seed seed) {
       model.generate(preset.values, seed, {}, plant);
       renderer->draw(plant, camera, mask);
