@@ -58,6 +58,7 @@ class FitRun : public Observer {
   void begin_from_best(const std::vector<StartPoint>& starts, const std::vector<double>& scores);
   bool search_time_is_over() const;
   void identify_parameters();
+  void warn_over_budget(const std::string& start, double factor) const;
   void portray_best();
 
   // fit_run_refinement.cpp

@@ -37,6 +37,13 @@ void FitRun::on_scored(const ScoredBatch& batch) {
   report_progress();
 }
 
+void FitRun::warn_over_budget(const std::string& start, double factor) const {
+  options_.on_warning(fmt::format(
+      "start '{}': got {:.3g} times as many stems or leaves as a candidate may have, expected at most "
+      "{:g} and {:g}: it was not grown",
+      start, factor, record_.growth.max_stems, record_.growth.max_leaves));
+}
+
 std::vector<double> FitRun::score_starts(const std::vector<StartPoint>& starts) {
   std::vector<ParameterValues> candidates;
   for (const StartPoint& start : starts) candidates.push_back(start.values);
@@ -46,8 +53,12 @@ std::vector<double> FitRun::score_starts(const std::vector<StartPoint>& starts) 
     const std::size_t count = std::min(kStartBatch, scores.size() - first);
     scorer_.score(std::span(candidates).subspan(first, count), std::span(scores).subspan(first, count));
   }
-  for (std::size_t i = 0; i < scores.size(); ++i)
-    if (scores[i] < kNotEvaluated) state_.starts.push_back({starts[i].name, 1 - scores[i]});
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    if (scores[i] >= kNotEvaluated) continue;
+    state_.starts.push_back({starts[i].name, 1 - scores[i]});
+    if (scores[i] > 1 && scores[i] < kFailedCandidate)
+      warn_over_budget(starts[i].name, over_budget_factor(scores[i]));
+  }
   return scores;
 }
 

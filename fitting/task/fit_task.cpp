@@ -53,9 +53,10 @@ double score_of_masks(const FitTask& task, std::span<const Mask> masks, std::spa
   double sum = 0;
   for (std::size_t i = 0; i < masks.size(); ++i) {
     const TargetView& view = task.views[i];
-    sum += dissimilarity(task.objective, masks[i], view.target);
+    double score = dissimilarity(task.objective, masks[i], view.target);
     if (task.bare_wood_price > 0 && area_px(view.crown) > 0)
-      sum += task.bare_wood_price * bare_share(view.crown, masks[i], leaves[i]);
+      score = std::min(1.0, score + task.bare_wood_price * bare_share(view.crown, masks[i], leaves[i]));
+    sum += score;
   }
   return sum / static_cast<double>(masks.size());
 }

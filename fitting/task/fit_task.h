@@ -64,7 +64,7 @@ inline std::vector<Mask> draw_candidate(const FitTask& task, const ParameterValu
 
 /// What a candidate is searched by, of its silhouettes in all views and of what leaves cover of them: the
 /// mean of the objective and, where leaves are expected, of the price for the pixels that only wood covers.
-/// `leaves` is only looked at in views that expect some. In [0, 1 + bare_wood_price], 0 is best.
+/// `leaves` is only looked at in views that expect some. In [0, 1], 0 is best.
 double score_of_masks(const FitTask& task, std::span<const Mask> masks, std::span<const Mask> leaves);
 
 /// Whether leaves are drawn apart for it.

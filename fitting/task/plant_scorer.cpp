@@ -22,6 +22,8 @@ double estimated_excess(const FitTask& task, const ParameterValues& values) {
 
 double over_budget_penalty(double factor) { return 1 + std::log10(std::clamp(factor, 1.0, 1e300)); }
 
+double over_budget_factor(double score) { return std::pow(10, score - 1); }
+
 PlantScorer::PlantScorer(const FitTask& task, int threads)
     : task_(task), workers_(static_cast<std::size_t>(std::max(threads, 1))) {}
 

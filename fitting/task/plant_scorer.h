@@ -55,4 +55,7 @@ class PlantScorer : public Scorer {
 /// The score of a candidate that exceeds its growth budget `factor` times (> 1).
 double over_budget_penalty(double factor);
 
+/// How many times a candidate with this score, above 1, exceeds its budget.
+double over_budget_factor(double score);
+
 }  // namespace espalier

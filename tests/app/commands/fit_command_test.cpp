@@ -169,6 +169,17 @@ TEST(FitCommand, ChoicesAreFixedByTheirNames) {
   expect_error(kPalm + " --set-optimizer population=0x10", "--set-optimizer: got '0x10' for population");
 }
 
+TEST(FitCommand, AStartBeyondTheBudgetIsSaidToBe) {
+  const fs::path run = fresh_folder("beyond") / "run";
+  const ProgramRun done =
+      run_espalier(fmt::format("fit {}/targets/fir.png --start quaking_aspen --stages starts --max-leaves "
+                               "100 --evaluations 5 --out {}",
+                               ESPALIER_SOURCE_DIR, run.string()));
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("espalier: warning: start 'quaking_aspen': got "));
+  EXPECT_THAT(done.err, HasSubstr("expected at most 6000 and 100: it was not grown"));
+}
+
 TEST(FitCommand, ResumeTakesTheOptionsThatARunMayChange) {
   for (const FitOption& option : fit_options()) {
     if (option.option.empty()) continue;

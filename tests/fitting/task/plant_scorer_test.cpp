@@ -75,6 +75,13 @@ TEST(PlantScorer, PenaltiesAreFinite) {
   EXPECT_GE(over_budget_penalty(0.5), 1);
 }
 
+TEST(PlantScorer, APenaltyTellsByHowMuchTheBudgetWasExceeded) {
+  for (const double factor : {1.5, 10.0, 1e6}) {
+    const double told = over_budget_factor(over_budget_penalty(factor));
+    EXPECT_NEAR(told, factor, 1e-9 * factor);
+  }
+}
+
 TEST(PlantScorer, ReportsAFailureOfTheModelFromAnyThread) {
   const PoleModel model;
   auto poles = some_poles();
