@@ -8,6 +8,7 @@
 #include <espalier/fitting/run/fit.h>
 #include <espalier/fitting/run/full_size.h>
 #include <espalier/models/grow_preset.h>
+#include <espalier/models/models.h>
 #include <espalier/render/scanlines/scanline_renderer.h>
 
 #include "support/run_espalier.h"
