@@ -132,7 +132,7 @@ TEST(BranchRefinement, ANumberThatGainsLessThanItsPriceIsNotKept) {
   std::size_t numbers[2];
   double scores[2];
   for (const bool dear : {false, true}) {
-    small.task.freedom = {1, dear ? 1e-4 : 0};
+    small.task.freedom = {1, dear ? 2e-3 : 0};
     Solution solution = small.start();
     refine_branches(small.task, settings_of(1, 4000), solution);
     numbers[dear] = count_numbers(solution.overrides);

@@ -72,9 +72,9 @@ TEST(Fit, LeavesEveryFileOfARun) {
   fit(small_record(40), run);
   for (const char* name :
        {"run.toml", "trace.csv", "best.toml", "target.png", "best.png", "overlay.png", "convergence.svg",
-        "convergence.png", "summary.json", "evaluations.bin", "archive"})
+        "convergence.png", "summary.json", "evaluations.bin", "archive", "tree.png"})
     EXPECT_TRUE(fs::exists(run / name)) << name;
-  EXPECT_EQ(std::distance(fs::directory_iterator(run), {}), 11) << "no temporary file is left";
+  EXPECT_EQ(std::distance(fs::directory_iterator(run), {}), 12) << "no temporary file is left";
 }
 
 TEST(Fit, SummarySaysWhatWasDone) {

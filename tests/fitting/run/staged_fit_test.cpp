@@ -102,9 +102,9 @@ TEST(StagedFit, AnLsystemIsRefinedBranchByBranchToo) {
 }
 
 TEST(StagedFit, ALeaflessPictureIsNotTracedByAnLsystem) {
-  FitRecord record = lsystem_record(1);
-  record.kind = KindChoice::leafless;
-  const FitResult searched = fit(lsystem_record(0), new_run("lsystem_leafless_search")),
+  FitRecord search = lsystem_record(0), record = lsystem_record(1);
+  search.kind = record.kind = KindChoice::leafless;
+  const FitResult searched = fit(search, new_run("lsystem_leafless_search")),
                   refined = fit(record, new_run("lsystem_leafless"));
   EXPECT_GE(refined.fitness, searched.fitness);
   EXPECT_EQ(refined.values, searched.values);
