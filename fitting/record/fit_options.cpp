@@ -6,7 +6,6 @@
 #include <espalier/core/field_error.h>
 #include <espalier/fitting/optimizers/search_method.h>
 #include <espalier/fitting/record/fit_options.h>
-#include <espalier/fitting/record/freedom.h>
 #include <espalier/fitting/record/species_components.h>
 #include <espalier/image/measures/objective.h>
 #include <espalier/models/models.h>
@@ -293,7 +292,7 @@ std::vector<FitOption> options_of_the_search() {
        .option = "bare-wood-price",
        .member = [](FitRecord& record) -> double& { return record.bare_wood_price; },
        .lower = 0,
-       .upper = 10,
+       .upper = 100,
        .help = "of leafy trees: what a crown that only wood covers costs, in fitness (0: a branch is as good "
                "as a leaf)",
        .since = "0.2",
@@ -301,14 +300,17 @@ std::vector<FitOption> options_of_the_search() {
       {.field = "freedom",
        .key = "search.freedom",
        .option = "freedom",
-       .member = [](FitRecord& record) -> std::optional<double>& { return record.freedom; },
+       .member = [](FitRecord& record) -> double& { return record.freedom; },
        .lower = 0,
        .upper = 100,
+       .word = NumberWord{"auto", kFreedomOfKind},
        .help = "how far branches may leave what the model draws: 0 not at all, 1 little, 4 and more as far "
                "as they "
                "like (default: 1, of leafless trees and palms 4)",
+       .note = "of single branches; -1: as the kind of tree needs",
        .since = "0.2",
-       .before = kWholeFreedom},
+       .before = kWholeFreedom,
+       .says_default = true},
       {.field = "search.free",
        .key = "search.free",
        .option = "free",

@@ -11,6 +11,7 @@
 #include <espalier/fitting/picture/tree_kind.h>
 #include <espalier/fitting/record/fit_stages.h>
 #include <espalier/fitting/record/fit_stop.h>
+#include <espalier/fitting/record/freedom.h>
 #include <espalier/fitting/record/search_space.h>
 #include <espalier/fitting/record/view_record.h>
 #include <espalier/image/reading/read_target.h>
@@ -61,8 +62,7 @@ struct FitRecord {
   std::optional<double> height_m;
   double bare_wood_price =
       0.2;  ///< of leafy trees: added to a dissimilarity where only wood covers the crown
-  /// Of single branches [fitting/record/freedom.h]; none: as the kind of tree needs it.
-  std::optional<double> freedom;
+  double freedom = kFreedomOfKind;              ///< of single branches
   std::map<std::string, std::string> versions;  ///< of the program and its libraries
 };
 

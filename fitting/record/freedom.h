@@ -9,6 +9,7 @@
 namespace espalier {
 
 inline constexpr double kWholeFreedom = 4;
+inline constexpr int kFreedomOfKind = -1;  ///< in a record: as much as the kind of tree needs
 
 struct Freedom {
   double share = 1;  ///< of the ranges of a branch's offsets, 0 … 1

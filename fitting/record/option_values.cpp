@@ -87,18 +87,21 @@ std::string unit_text(const FitOption& option) {
 /// Ranges without a practical end are described by their beginning.
 constexpr double kLooksEndless = 1e8;
 
+std::string or_word(const FitOption& option) {
+  return option.word ? fmt::format(", or '{}'", option.word->word) : "";
+}
+
 std::string describe_whole(const FitOption& option) {
   const double lower = is_seed(option) ? 0 : option.zero_is_none ? 1 : option.lower;
   const std::string range = option.upper < kLooksEndless ? fmt::format("{}..{}", lower, option.upper)
                                                          : fmt::format("from {}", lower);
-  const std::string word = option.word ? fmt::format(", or '{}'", option.word->word) : "";
-  return fmt::format("a whole number {}{}{}", range, unit_text(option), word);
+  return fmt::format("a whole number {}{}{}", range, unit_text(option), or_word(option));
 }
 
 std::string describe_number(const FitOption& option) {
   const bool endless = option.upper >= kLooksEndless;
   if (!option.zero_is_none)
-    return fmt::format("a number {}..{}{}", option.lower, option.upper, unit_text(option));
+    return fmt::format("a number {}..{}{}{}", option.lower, option.upper, unit_text(option), or_word(option));
   return fmt::format("a number above 0{}{}", endless ? "" : fmt::format(", at most {}", option.upper),
                      unit_text(option));
 }
@@ -148,6 +151,7 @@ OptionValue flag_of_word(const FitOption& option, const std::string& word) {
 }
 
 OptionValue number_of_word(const FitOption& option, const std::string& word) {
+  if (option.word && word == option.word->word) return static_cast<double>(option.word->value);
   const auto value = parse_decimal(word);
   if (!value) refuse(option, fmt::format("'{}'", word));
   return *value;

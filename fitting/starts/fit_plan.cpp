@@ -31,7 +31,8 @@ class Planner {
   FitPlan plan() {
     plan_.kind = record_.kind == KindChoice::automatic ? choice_of(reading_.kind) : record_.kind;
     plan_.shares = shares_of(plan_.kind);
-    plan_.freedom = freedom_of(record_.freedom.value_or(usual_freedom(plan_.kind)));
+    plan_.freedom =
+        freedom_of(record_.freedom == kFreedomOfKind ? usual_freedom(plan_.kind) : record_.freedom);
     plan_.choice = record_.search;
     trunk_ = held_trunk();
     if (record_.search.free.empty()) restrict_choice();

@@ -231,6 +231,8 @@ stages = "search,branches,finish"
 start = "palm"
 space = "species:2"  # searched first
 space_evaluations = 300
+bare_wood_price = 0.2
+freedom = -1.0  # of single branches; -1: as the kind of tree needs
 free = ["g_scale", "curve*"]  # none: the default set of the model
 
 [search.fixed]
