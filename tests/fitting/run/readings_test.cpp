@@ -41,7 +41,7 @@ std::map<int, int> readings_of(const FitRecord& record, const std::string& name)
   return count;
 }
 
-FitRecord record_of(const std::string& kind_of_picture) {
+FitRecord record_of_picture(const std::string& kind_of_picture) {
   FitRecord record;
   record.views = {{fs::path(ESPALIER_SOURCE_DIR) / "targets" / kind_of_picture, {}}};
   record.target.size_px = 32;
@@ -55,7 +55,7 @@ TEST(Readings, APictureIsReadOnceAtEachSize) {
   for (const char* picture : {"tr_birch.png", "tr_crookedtree4.png", "oc_palm.png"})
     for (const bool trained : {false, true}) {
       SCOPED_TRACE(picture);
-      FitRecord record = record_of(picture);
+      FitRecord record = record_of_picture(picture);
       record.train_to_target = trained;
       const std::map<int, int> readings = readings_of(record, "readings");
       EXPECT_TRUE(readings.contains(32));
@@ -65,7 +65,7 @@ TEST(Readings, APictureIsReadOnceAtEachSize) {
 }
 
 TEST(Readings, EachOfTwoViewsIsReadOnceAtEachSize) {
-  FitRecord record = record_of("tr_birch.png");
+  FitRecord record = record_of_picture("tr_birch.png");
   record.views.push_back({fs::path(ESPALIER_SOURCE_DIR) / "targets/fir.png", {90, 0}});
   for (const auto& [size_px, count] : readings_of(record, "readings_two"))
     EXPECT_EQ(count, 2) << size_px << " px";
