@@ -52,7 +52,7 @@ void grow_into_pictures(const FitRecord& record, FitTask& task) {
   std::vector<PictureOutline> outlines;
   for (const TargetView& view : task.views)
     outlines.push_back({view.camera, room_to_grow(view.target.outline(), view.target.mask())});
-  task.envelope = make_picture_envelope(std::move(outlines));
+  task.envelope = make_picture_envelope(outlines);
   if (!leaves_room_for_trunk(*task.envelope, target_height_m(record))) {
     task.envelope.reset();
     task.warnings.push_back(

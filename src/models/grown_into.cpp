@@ -57,7 +57,7 @@ std::unique_ptr<Volume> envelope_of(const std::vector<GrownInto>& pictures) {
                                    mask.height_px(), picture.base_row_px),
                         mask});
   }
-  return outlines.empty() ? nullptr : make_picture_envelope(std::move(outlines));
+  return outlines.empty() ? nullptr : make_picture_envelope(outlines);
 }
 
 }  // namespace espalier
