@@ -31,9 +31,8 @@ bool removes(const OverrideNode& node) {
 }
 
 std::size_t count_numbers(const BranchOffsets& branch) {
-  if (branch.removed) return 1;
   const auto moved = std::count_if(branch.at.begin(), branch.at.end(), [](double x) { return x != 0; });
-  return static_cast<std::size_t>(moved) + (branch.seed != 0);
+  return static_cast<std::size_t>(moved) + (branch.seed != 0) + branch.removed;
 }
 
 std::size_t count_numbers(const Overrides& overrides) {

@@ -44,7 +44,7 @@ BranchOffsets read_offsets(const BranchPath& path, const Overrides& overrides);
 /// Leaves what the node says of other quantities as it is.
 void write_offsets(const BranchOffsets& branch, Overrides& overrides);
 
-/// What the branch has of its own: offsets that are not 0, a seed, its removal.
+/// What write_offsets writes of the branch: offsets that are not 0, a seed, its removal.
 std::size_t count_numbers(const BranchOffsets& branch);
 
 /// The same of all branches of a tree.

@@ -10,6 +10,7 @@
 #include <espalier/fitting/branches/step_size.h>
 #include <espalier/fitting/optimizers/random_stream.h>
 #include <espalier/overrides/change_graph.h>
+#include <espalier/render/grow_and_draw.h>
 
 namespace espalier {
 
@@ -49,11 +50,8 @@ class Drawer {
       const Camera& camera = task_.views[i].camera;
       masks[i].reset(camera.width_px, camera.height_px);
       if (has_leaves_) masks[views + i].reset(camera.width_px, camera.height_px);
-      if (!grown) continue;
-      if (has_leaves_)
-        renderer_->draw_apart(plant_, camera, masks[i], masks[views + i]);
-      else
-        renderer_->draw(plant_, camera, masks[i]);
+      if (grown)
+        draw_view(*renderer_, plant_, {&camera, &masks[i], has_leaves_ ? &masks[views + i] : nullptr});
     }
     return grown;
   }
@@ -171,7 +169,7 @@ class Refinement {
     Branch child = branch;
     if (draws_.chance(branch.removed ? kBranchStep.returns : kBranchStep.removes)) {
       child.removed = !child.removed;
-      if (child.removed) return child;
+      if (child.removed) return freedom_.price > 0 ? removed_alone(child) : child;
       for (std::size_t i = 0; i < child.at.size(); ++i)
         child.at[i] =
             clamped(i, freedom_.share * kBranchStep.return_spread * draws_.normal(), freedom_.share);
@@ -191,6 +189,14 @@ class Refinement {
         child.at[i] =
             clamped(i, child.at[i] + freedom_.share * child.sigma * draws_.normal(), freedom_.share);
     return child;
+  }
+
+  /// Where numbers have a price, a branch that is gone has no others.
+  static Branch removed_alone(const Branch& branch) {
+    Branch alone = branch;
+    alone.at = {};
+    alone.seed = 0;
+    return alone;
   }
 
   /// An offset or the seed, whichever is drawn; the model gives it again what it gives.

@@ -251,7 +251,7 @@ std::vector<FitOption> options_of_the_budget() {
   };
 }
 
-std::vector<FitOption> options_of_the_search() {
+std::vector<FitOption> options_of_the_start() {
   return {
       {.field = "stages",
        .key = "search.stages",
@@ -287,6 +287,11 @@ std::vector<FitOption> options_of_the_search() {
        .help = "evaluations in the species space, at most",
        .is_written = has_space,
        .before = std::int64_t{FitRecord{}.space_evaluations}},
+  };
+}
+
+std::vector<FitOption> options_of_the_plant() {
+  return {
       {.field = "bare_wood_price",
        .key = "search.bare_wood_price",
        .option = "bare-wood-price",
@@ -304,13 +309,17 @@ std::vector<FitOption> options_of_the_search() {
        .lower = 0,
        .upper = 100,
        .word = NumberWord{"auto", kFreedomOfKind},
-       .help = "how far branches may leave what the model draws: 0 not at all, 1 little, 4 and more as far "
-               "as they "
-               "like (default: 1, of leafless trees and palms 4)",
+       .help = "how far branches may leave what the model draws: 0 not at all, 1 little, 4 and more as "
+               "far as they like (default: 1, of leafless trees and palms 4)",
        .note = "of single branches; -1: as the kind of tree needs",
        .since = "0.2",
        .before = kWholeFreedom,
        .says_default = true},
+  };
+}
+
+std::vector<FitOption> options_of_the_search() {
+  return {
       {.field = "search.free",
        .key = "search.free",
        .option = "free",
@@ -340,8 +349,8 @@ std::vector<FitOption> options_of_the_search() {
 
 std::vector<FitOption> options_of_all() {
   std::vector<FitOption> options;
-  for (const auto part :
-       {options_of_the_task, options_of_the_target, options_of_the_budget, options_of_the_search})
+  for (const auto part : {options_of_the_task, options_of_the_target, options_of_the_budget,
+                          options_of_the_start, options_of_the_plant, options_of_the_search})
     for (FitOption& option : part()) options.push_back(std::move(option));
   return options;
 }

@@ -81,7 +81,7 @@ FitResult fit(const FitRecord& given, const fs::path& directory, const FitExecut
                  make_search_space(table, table.defaults(), record.search), species);
   const FitPlan plan = plan_of(record, task);
   settle_branches(plan, task);
-  if (record.freedom == kFreedomOfKind) record.freedom = usual_freedom(plan.kind);
+  record.freedom = plan.freedom;
   begin_run_directory(directory, {.record = record, .task = task});
   for (const std::string& warning : task.warnings) options.on_warning(warning);
   return FitRun(record, task, plan, directory, options).run(species);

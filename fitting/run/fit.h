@@ -34,7 +34,7 @@ struct FitExecution {
 
 struct FitResult {
   ParameterValues values;
-  double fitness = 0;   ///< 1 - dissimilarity
+  double fitness = 0;   ///< 1 - dissimilarity, less the price of bare wood
   Overrides overrides;  ///< of the branches that were refined
   MaskMetrics metrics;
   std::optional<MaskMetrics> full_size_metrics;  ///< at 512 pixels, where branches were refined

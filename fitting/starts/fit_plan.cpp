@@ -31,8 +31,7 @@ class Planner {
   FitPlan plan() {
     plan_.kind = record_.kind == KindChoice::automatic ? choice_of(reading_.kind) : record_.kind;
     plan_.shares = shares_of(plan_.kind);
-    plan_.freedom =
-        freedom_of(record_.freedom == kFreedomOfKind ? usual_freedom(plan_.kind) : record_.freedom);
+    plan_.freedom = record_.freedom == kFreedomOfKind ? usual_freedom(plan_.kind) : record_.freedom;
     plan_.choice = record_.search;
     trunk_ = held_trunk();
     if (record_.search.free.empty()) restrict_choice();
@@ -132,7 +131,7 @@ double usual_freedom(KindChoice kind) {
 }
 
 void settle_branches(const FitPlan& plan, FitTask& task) {
-  task.freedom = plan.freedom;
+  task.freedom = freedom_of(plan.freedom);
   if (plan.held.empty()) return;
   task.overrides = plan.held;
   task.changes = std::make_shared<const ChangeGraph>(task.overrides);

@@ -1,6 +1,7 @@
 // What is settled before a fit begins, once and in one place: the kind of tree, what is searched and in which
-// ranges, where the search starts, which overrides all candidates bear, and how the time is shared out. The
-// picture has been read by then (TargetView::reading). What the user frees or fixes is left to the user.
+// ranges, where the search starts, which overrides all candidates bear, how free single
+// branches are, and how the time is shared out. The picture has been read by then (TargetView::reading). What
+// the user frees or fixes is left to the user.
 #pragma once
 #include <string>
 #include <vector>
@@ -34,7 +35,7 @@ struct FitPlan {
   /// Of all candidates: the trunk of a palm, which lies on the picture's (branches/palm_trunk.h).
   Overrides held;
   StageShares shares;
-  Freedom freedom;  ///< the record's, or what the kind needs
+  double freedom = kWholeFreedom;  ///< of single branches: the record's, or what the kind needs
 };
 
 /// Throws InputError where a start is no preset of the model.

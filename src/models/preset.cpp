@@ -29,9 +29,9 @@ std::optional<std::string> read_text(const toml::table& document, const std::str
 std::optional<Seed> read_seed(const toml::table& document, const std::string& source) {
   const toml::node* node = document.get("seed");
   if (!node) return std::nullopt;
-  const auto seed = node->value_exact<std::int64_t>();
-  if (seed && *seed >= 0) return static_cast<Seed>(*seed);
-  throw_input_error("{}: key 'seed': got {}, expected a whole number from 0", toml_location(source, *node),
+  // TOML has no whole numbers above 2^63 - 1: larger seeds are negative, as in run.toml.
+  if (const auto seed = node->value_exact<std::int64_t>()) return static_cast<Seed>(*seed);
+  throw_input_error("{}: key 'seed': got {}, expected a whole number", toml_location(source, *node),
                     describe_toml(*node));
 }
 

@@ -43,7 +43,8 @@ std::string preset_to_toml(const Preset& preset, const ParameterTable& table) {
   std::string text = fmt::format("name = {}\ndescription = {}\nmodel = {}\n", quote_toml(preset.name),
                                  quote_toml(preset.description), quote_toml(preset.model));
   if (preset.seed)
-    text += fmt::format("{:<36}  # of the tree that was fitted\n", fmt::format("seed = {}", *preset.seed));
+    text += fmt::format("{:<36}  # of the tree that was fitted\n",
+                        fmt::format("seed = {}", static_cast<std::int64_t>(*preset.seed)));
   text += "\n";
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     if (i == 0 || table.rows[i].name != table.rows[i - 1].name)

@@ -20,14 +20,14 @@ class LeafPen : public LeafSink {
   std::span<const SilhouetteView> views_;
 };
 
+}  // namespace
+
 void draw_view(SilhouetteRenderer& renderer, const Plant& plant, const SilhouetteView& view) {
   if (view.leaves)
     renderer.draw_apart(plant, *view.camera, *view.mask, *view.leaves);
   else
     renderer.draw(plant, *view.camera, *view.mask);
 }
-
-}  // namespace
 
 GrowthResult grow_and_draw(const Model& model, std::span<const double> values, Seed seed,
                            const GrowthSettings& settings, SilhouetteRenderer& renderer,

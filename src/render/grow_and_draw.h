@@ -15,6 +15,9 @@ struct SilhouetteView {
   Mask* leaves = nullptr;  ///< unless null: what leaves and blossoms cover of it
 };
 
+/// Draws a whole plant into a view.
+void draw_view(SilhouetteRenderer& renderer, const Plant& plant, const SilhouetteView& view);
+
 /// Grows into `plant`, and draws it into all views. Afterwards the plant may lack leaves. Where the growth
 /// is refused, the masks mean nothing.
 GrowthResult grow_and_draw(const Model& model, std::span<const double> values, Seed seed,

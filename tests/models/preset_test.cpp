@@ -96,7 +96,7 @@ TEST(Preset, WritingAndReadingKeepsEveryBit) {
   EXPECT_TRUE(rc::check([&] {
     Preset preset{"a \"name\"", "tab\t, back\\slash, line\nfeed, ü", "weber_penn", {}};
     for (const ParameterInfo& row : table.rows) preset.values.push_back(*valid_value(row));
-    if (*rc::gen::arbitrary<bool>()) preset.seed = *rc::gen::inRange<Seed>(0, Seed{1} << 62);
+    if (*rc::gen::arbitrary<bool>()) preset.seed = *rc::gen::element<Seed>(0, 7, Seed{1} << 63, ~Seed{0});
     const Preset again = load_preset(folder.write("random.toml", preset_to_toml(preset)));
     RC_ASSERT(again.name == preset.name);
     RC_ASSERT(again.seed == preset.seed);
@@ -122,7 +122,7 @@ TEST(Preset, GrowsWithItsSeedUnlessAnotherIsAskedFor) {
 
 TEST(Preset, ASeedThatIsNoneIsRefused) {
   const PresetFolder folder;
-  for (const char* seed : {"-1", "1.5", "\"one\"", "true"}) {
+  for (const char* seed : {"1.5", "\"one\"", "true"}) {
     const std::string text = fmt::format("model = \"weber_penn\"\nseed = {}\n", seed);
     try {
       load_preset(folder.write("seed.toml", text));

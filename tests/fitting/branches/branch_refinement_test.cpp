@@ -97,9 +97,22 @@ Solution refined_with(double freedom, long steps = 4000) {
   return solution;
 }
 
+/// What a step is charged for is what the file will hold.
+TEST(BranchRefinement, ABranchIsChargedForTheNumbersThatAreWritten) {
+  const Overrides overrides = refined_with(1).overrides;
+  std::size_t removals = 0;
+  for (const OverrideNode& node : overrides.nodes) {
+    EXPECT_EQ(count_numbers(read_offsets(node.path, overrides)), node.set.overrides.size());
+    if (!removes(node)) continue;
+    ++removals;
+    EXPECT_EQ(node.set.overrides.size(), 1u);
+  }
+  EXPECT_GT(removals, 0u);
+}
+
 TEST(BranchRefinement, OffsetsKeepToTheShareThatTheirFreedomGivesThem) {
   for (const double freedom : {0.5, 1.0, 2.0}) {
-    const double widest = widest_offset(refined_with(freedom).overrides);
+    const double widest = widest_offset(refined_with(freedom, 20000).overrides);
     EXPECT_LE(widest, freedom / kWholeFreedom + 1e-9) << freedom;
     EXPECT_GT(widest, 0.5 * freedom / kWholeFreedom) << freedom;
   }
