@@ -9,7 +9,7 @@
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
 
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {

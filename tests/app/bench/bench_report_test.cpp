@@ -6,7 +6,7 @@
 
 #include <espalier/app/bench/bench_report.h>
 
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {

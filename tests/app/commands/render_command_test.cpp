@@ -1,13 +1,8 @@
 // Laws of the commands mask and render, run as a user runs them: files, exit codes, one line of error.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -18,20 +13,12 @@
 #include <espalier/render/embree/embree_renderer.h>
 #include <espalier/render/silhouette.h>
 
+#include "support/run_espalier.h"
+
 namespace espalier {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Outcome {
-  int exit_code = -1;
-  std::string output, error;
-};
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 class RenderCommand : public testing::Test {
  protected:
@@ -45,20 +32,12 @@ class RenderCommand : public testing::Test {
 
   fs::path path(const std::string& name) const { return directory_ / name; }
 
-  Outcome run(const std::string& arguments) const {
-    const std::string command = std::string("'") + ESPALIER_PROGRAM + "' " + arguments + " >'" +
-                                path("stdout").string() + "' 2>'" + path("stderr").string() + "'";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(path("stdout")), contents(path("stderr"))};
-  }
-
   /// Exit code 2, one line on stderr that holds `text`, and no picture.
   void expect_refused(const std::string& arguments, const std::string& text) const {
     SCOPED_TRACE(arguments);
-    const Outcome outcome = run(arguments + " -o '" + path("x.png").string() + "'");
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
-    EXPECT_NE(outcome.error.find(text), std::string::npos) << outcome.error;
+    const ProgramRun run = run_espalier(arguments + " -o '" + path("x.png").string() + "'");
+    expect_one_clear_error(run);
+    EXPECT_NE(run.err.find(text), std::string::npos) << run.err;
     EXPECT_FALSE(fs::exists(path("x.png")));
   }
 
@@ -77,20 +56,22 @@ std::pair<int, int> png_size(const std::string& bytes) {
 }
 
 TEST_F(RenderCommand, MaskWritesWhatTheRendererDraws) {
-  ASSERT_EQ(run("mask palm --seed 3 --size 96x128 -o '" + path("x.png").string() + "'").exit_code, 0);
+  ASSERT_EQ(run_espalier("mask palm --seed 3 --size 96x128 -o '" + path("x.png").string() + "'").exit_code,
+            0);
   const Preset preset = load_preset("palm");
   Plant plant;
   ASSERT_TRUE(model_by_name(preset.model).generate(preset.values, 3, {}, plant).grown);
   Mask mask;
   make_embree_renderer()->draw(plant, frame_bounds(bounds(plant), {}, 96, 128), mask);
   write_mask_png(path("expected.png"), mask);
-  EXPECT_EQ(contents(path("x.png")), contents(path("expected.png")));
+  EXPECT_EQ(read_text_file(path("x.png")), read_text_file(path("expected.png")));
 }
 
 TEST_F(RenderCommand, TheSeedAndTheViewChangeTheMask) {
   const auto mask_of = [&](const std::string& options) {
-    EXPECT_EQ(run("mask palm --size 96 -o '" + path("x.png").string() + "' " + options).exit_code, 0);
-    return contents(path("x.png"));
+    EXPECT_EQ(run_espalier("mask palm --size 96 -o '" + path("x.png").string() + "' " + options).exit_code,
+              0);
+    return read_text_file(path("x.png"));
   };
   const std::string front = mask_of("--seed 1");
   EXPECT_EQ(mask_of("--seed 1"), front);
@@ -101,10 +82,11 @@ TEST_F(RenderCommand, TheSeedAndTheViewChangeTheMask) {
 }
 
 TEST_F(RenderCommand, RenderWritesAPictureOfTheStatedSize) {
-  const Outcome outcome = run("render palm --seed 1 --size 80x60 --samples 2 --view 30,10 --ground -o '" +
-                              path("x.png").string() + "'");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  EXPECT_EQ(png_size(contents(path("x.png"))), (std::pair{80, 60}));
+  const ProgramRun run =
+      run_espalier("render palm --seed 1 --size 80x60 --samples 2 --view 30,10 --ground -o '" +
+                   path("x.png").string() + "'");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(png_size(read_text_file(path("x.png"))), (std::pair{80, 60}));
 }
 
 TEST_F(RenderCommand, AnUnknownSpeciesIsRefusedWithTheClosestName) {
@@ -135,9 +117,9 @@ TEST_F(RenderCommand, BadSamplesAreRefused) {
 TEST_F(RenderCommand, OutputsThatCannotBeWrittenAreRefusedBeforeAnyWork) {
   for (const std::string output : {"/nonexistent/x.png", "/proc/x.png", "x.jpg", "."}) {
     SCOPED_TRACE(output);
-    const Outcome outcome = run("mask weeping_willow -o '" + output + "'");
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_NE(outcome.error.find(output), std::string::npos) << outcome.error;
+    const ProgramRun run = run_espalier("mask weeping_willow -o '" + output + "'");
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_NE(run.err.find(output), std::string::npos) << run.err;
   }
 }
 

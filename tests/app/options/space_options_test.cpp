@@ -7,7 +7,7 @@
 #include <espalier/core/error.h>
 #include <espalier/fitting/species_space/species_space_file.h>
 
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {

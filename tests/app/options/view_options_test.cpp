@@ -7,7 +7,7 @@
 #include <espalier/app/options/view_options.h>
 #include <espalier/core/error.h>
 
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {

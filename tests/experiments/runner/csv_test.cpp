@@ -8,7 +8,7 @@
 #include <espalier/core/error.h>
 #include <espalier/experiments/runner/csv.h>
 
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {

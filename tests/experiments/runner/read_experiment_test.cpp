@@ -9,7 +9,7 @@
 #include <espalier/experiments/runner/run_experiment.h>
 
 #include "support/option_samples.h"
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {

@@ -12,7 +12,7 @@
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 #include "support/toy_model.h"
 
 namespace espalier {

@@ -11,7 +11,7 @@
 #include <espalier/fitting/run/fit.h>
 #include <espalier/models/preset.h>
 
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {

@@ -12,7 +12,7 @@
 #include <espalier/fitting/record/option_values.h>
 
 #include "support/option_samples.h"
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {

@@ -10,7 +10,7 @@
 #include <espalier/core/error.h>
 #include <espalier/fitting/record/fit_record.h>
 
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {

@@ -9,7 +9,7 @@
 #include <espalier/image/pictures/picture.h>
 
 #include "support/fakes.h"
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {

@@ -8,7 +8,7 @@
 #include <espalier/fitting/picture/picture_reading.h>
 #include <espalier/fitting/run/fit.h>
 
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 

@@ -9,7 +9,7 @@
 #include <espalier/models/preset.h>
 #include <espalier/render/embree/embree_renderer.h>
 
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {

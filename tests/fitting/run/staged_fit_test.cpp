@@ -11,7 +11,7 @@
 #include <espalier/models/models.h>
 #include <espalier/render/scanlines/scanline_renderer.h>
 
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {

@@ -13,7 +13,7 @@
 #include <espalier/fitting/species_space/species_space_file.h>
 #include <espalier/models/models.h>
 
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {

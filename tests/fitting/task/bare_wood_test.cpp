@@ -7,7 +7,7 @@
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {

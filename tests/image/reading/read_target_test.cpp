@@ -13,7 +13,7 @@
 
 #include "support/picture_files.h"
 #include "support/random_masks.h"
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {
