@@ -12,8 +12,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <optional>
 #include <vector>
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#include <sanitizer/lsan_interface.h>
+#endif
+#endif
 
 #include <espalier/app/main/program.h>
 
@@ -45,6 +51,19 @@ void redirect(int stream, const std::string& path, int flags) {
   close(file);
 }
 
+/// Ends a fork. Not by exit(): log4cplus, which OpenImageIO loads, would wait for threads that a fork has
+/// not.
+[[noreturn]] void end_run(int exit_code) {
+  std::cout.flush();
+  std::fflush(nullptr);
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+  __lsan_do_leak_check();
+#endif
+#endif
+  _exit(exit_code);
+}
+
 /// In a process of its own. request: files for standard output and error, then the arguments.
 [[noreturn]] void run_here(const Request& request) {
   redirect(STDIN_FILENO, "/dev/null", O_RDONLY);
@@ -52,7 +71,7 @@ void redirect(int stream, const std::string& path, int flags) {
   redirect(STDERR_FILENO, request.at(1), O_WRONLY | O_CREAT | O_TRUNC);
   std::vector<const char*> arguments = {"espalier"};
   for (std::size_t i = 2; i < request.size(); ++i) arguments.push_back(request[i].c_str());
-  std::exit(run_program(static_cast<int>(arguments.size()), arguments.data()));
+  end_run(run_program(static_cast<int>(arguments.size()), arguments.data()));
 }
 
 /// Answers each request with the wait status of its run, until the test program closes its end.
