@@ -15,11 +15,6 @@
 #include <iostream>
 #include <optional>
 #include <vector>
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#include <sanitizer/lsan_interface.h>
-#endif
-#endif
 
 #include <espalier/app/main/program.h>
 
@@ -56,11 +51,6 @@ void redirect(int stream, const std::string& path, int flags) {
 [[noreturn]] void end_run(int exit_code) {
   std::cout.flush();
   std::fflush(nullptr);
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-  __lsan_do_leak_check();
-#endif
-#endif
   _exit(exit_code);
 }
 
