@@ -36,9 +36,8 @@ std::string group_name(const RowGroup& group) {
 }
 
 std::string value_name(const ParameterInfo& row, double value) {
-  const auto choice = static_cast<std::size_t>(value - row.first_choice);
-  return row.scale == Scale::choice && choice < row.choices.size() ? row.choices[choice]
-                                                                   : fmt::format("{}", value);
+  if (row.scale != Scale::choice) return fmt::format("{}", value);
+  return row.choices.at(static_cast<std::size_t>(value - row.first_choice));
 }
 
 std::string defaults_of(const RowGroup& group) {

@@ -145,7 +145,7 @@ TEST(Fit, ARunThatWasStoppedRepeatsByItsCountWithEveryOptimizer) {
     record.budget.seconds = 1000;
     if (optimizer->max_dimension() < 20) record.search.free = {"g_scale", "ratio"};
     const fs::path stopped = new_run("stopped"), repeated = new_run("repeated");
-    const FitResult first = fit(record, stopped, stopping_after(12));
+    const FitResult first = fit(record, stopped, stopping_after(4));
     EXPECT_EQ(first.stopped_by, FitStop::interrupted) << record.optimizer;
     const RecordedRun recorded = read_record(stopped / "run.toml");
     ASSERT_TRUE(recorded.outcome);
