@@ -31,7 +31,7 @@ fs::path small_study() {
   return file_with(
       "study.toml",
       "[fits]\ntargets = ['oc_palm', {species = 'palm', seed = 3}]\noptimizers = ['cma_es', 'LN_SBPLX']\n"
-      "starts = ['palm']\nseeds = 2\nevaluations = 400\nsize = 32\nmax_stems = 300\n"
+      "starts = ['palm']\nseeds = 2\nevaluations = 200\nsize = 32\nmax_stems = 300\n"
       "max_leaves = 3000\nunseen_seeds = 2\n");
 }
 

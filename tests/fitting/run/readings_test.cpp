@@ -45,8 +45,8 @@ FitRecord record_of_picture(const std::string& kind_of_picture) {
   FitRecord record;
   record.views = {{fs::path(ESPALIER_SOURCE_DIR) / "targets" / kind_of_picture, {}}};
   record.target.size_px = 32;
-  record.budget = {60, 0, 0, 3};
-  record.growth = {150, 600};
+  record.budget = {40, 0, 0, 2};
+  record.growth = {100, 300};
   record.kind = KindChoice::automatic;
   return record;
 }
