@@ -62,4 +62,10 @@ PictureReading read_picture(const Mask& mask) {
   return reading;
 }
 
+TreeKind kind_with_labels(TreeKind of_outline, const PlantLabels& labels) {
+  constexpr double kLeavesOfALeafyTree = 0.3;  ///< of its pixels; the bare trees of docs/labels.md have none
+  return of_outline == TreeKind::leafless && labels.leaf_share >= kLeavesOfALeafyTree ? TreeKind::leafy
+                                                                                      : of_outline;
+}
+
 }  // namespace espalier

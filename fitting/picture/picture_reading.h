@@ -3,6 +3,7 @@
 #pragma once
 #include <espalier/fitting/picture/tree_kind.h>
 #include <espalier/image/masks/mask.h>
+#include <espalier/image/reading/plant_labels.h>
 
 namespace espalier {
 
@@ -22,5 +23,9 @@ struct PictureReading {
 
 /// Throws InputError for an empty mask.
 PictureReading read_picture(const Mask& mask);
+
+/// The kind that a picture shows, of which its colours know more than its outline: what has leaves is not
+/// leafless, however open its crown is.
+TreeKind kind_with_labels(TreeKind of_outline, const PlantLabels& labels);
 
 }  // namespace espalier

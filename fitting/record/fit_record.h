@@ -42,7 +42,7 @@ inline constexpr const char* kFitObjective =
 struct FitRecord {
   std::string model = "weber_penn";
   std::vector<ViewRecord> views;  ///< at least one
-  TargetOptions target{.size_px = 128, .one_tree = true};
+  TargetOptions target{.size_px = 128, .one_tree = true, .labels = LabelChoice::automatic};
   std::string target_hash;  ///< of the masks the fit saw; empty until they are read
   std::string objective = "0.5*truncated_distance+0.5*iou";
   int fit_seeds = 1;  ///< trees per candidate, grown with seeds seed, seed + 1, …

@@ -3,6 +3,7 @@
 #include <espalier/fitting/run/plant_portrait.h>
 #include <espalier/image/masks/mask_box.h>
 #include <espalier/image/reading/frame.h>
+#include <espalier/image/reading/label_picture.h>
 #include <espalier/render/camera.h>
 #include <espalier/render/embree/visible_parts.h>
 #include <espalier/render/shading/shaded.h>
@@ -23,14 +24,13 @@ float width_m(const Plant& plant, float azimuth_deg) {
   return area_px(mask) == 0 ? 0 : static_cast<float>(box_of(mask).width()) * camera.metres_per_px;
 }
 
-/// The target's pixels, and what is around them, as large as a tile.
-Picture target_tile(const Mask& mask) {
-  constexpr Rgb kTree{40, 40, 40}, kGround{255, 255, 255};
+/// The target and its labels, as large as a tile.
+Picture target_tile(const TargetView& target) {
+  const Picture labels = label_picture(target.target.mask(), target.labels);
   Picture tile(kTilePx, kTilePx);
   for (int y = 0; y < kTilePx; ++y)
     for (int x = 0; x < kTilePx; ++x)
-      tile.at(x, y) =
-          mask.get(x * mask.width_px() / kTilePx, y * mask.height_px() / kTilePx) ? kTree : kGround;
+      tile.at(x, y) = labels.at(x * labels.width_px / kTilePx, y * labels.height_px / kTilePx);
   return tile;
 }
 
@@ -64,7 +64,7 @@ Picture plant_sheet(const Plant& plant, const TargetView& target, const View& fr
     const char* title;
     Picture picture;
   };
-  const Tile tiles[] = {{"target", target_tile(target.target.mask())},
+  const Tile tiles[] = {{"target", target_tile(target)},
                         {"front", from(0, 0)},
                         {"side", from(90, 0)},
                         {"three quarters", from(45, 15)}};

@@ -27,6 +27,12 @@ nlohmann::ordered_json identifiability_to_json(const IdentifiabilityReport& repo
   return json;
 }
 
+/// What the colours of the first picture say.
+nlohmann::ordered_json labels_to_json(const PlantLabels& labels) {
+  if (labels.how.empty()) return "not looked for";
+  return {{"leaf", labels.leaf_share}, {"wood", labels.wood_share}, {"how", labels.how}};
+}
+
 nlohmann::ordered_json portrait_to_json(const PlantPortrait& portrait) {
   return {{"visible_wood", portrait.visible_wood},
           {"depth_over_width", portrait.depth_over_width},
@@ -51,6 +57,7 @@ std::string run_summary(const RunState& state) {
     summary["full_size"] = state.full_size->metrics;
     summary["full_size"]["size_px"] = state.full_size->best.front().width_px();
   }
+  summary["labels"] = labels_to_json(state.task.views.front().labels);
   if (state.portrait) summary["plant"] = portrait_to_json(*state.portrait);
   summary["best_at_evaluation"] = state.best.evaluation;
   summary["seconds"] = state.seconds;

@@ -39,12 +39,18 @@ std::vector<Mask> draw_candidate(const FitTask& task, const ParameterValues& val
 
 namespace {
 
-/// Share of the crown's pixels that wood covers and no leaf does.
-double bare_share(const Mask& crown, const Mask& mask, const Mask& leaves) {
-  std::size_t bare = 0;
+std::size_t bits_of(std::uint64_t word) { return static_cast<std::size_t>(std::popcount(word)); }
+
+/// Share of the pixels in which leaves or wood are expected that show the other.
+double misplaced_share(const TargetView& view, const Mask& mask, const Mask& leaves) {
+  const Mask& crown = view.crown;
+  const Mask& wood = view.labels.wood;
+  std::size_t misplaced = 0;
   for (std::size_t i = 0; i < crown.words().size(); ++i)
-    bare += static_cast<std::size_t>(std::popcount(crown.words()[i] & mask.words()[i] & ~leaves.words()[i]));
-  return static_cast<double>(bare) / static_cast<double>(area_px(crown));
+    misplaced += bits_of(crown.words()[i] & mask.words()[i] & ~leaves.words()[i]);
+  for (std::size_t i = 0; i < wood.words().size(); ++i)
+    misplaced += bits_of(wood.words()[i] & leaves.words()[i]);
+  return static_cast<double>(misplaced) / static_cast<double>(area_px(crown) + area_px(wood));
 }
 
 }  // namespace
@@ -55,7 +61,7 @@ double score_of_masks(const FitTask& task, std::span<const Mask> masks, std::spa
     const TargetView& view = task.views[i];
     double score = dissimilarity(task.objective, masks[i], view.target);
     if (task.bare_wood_price > 0 && area_px(view.crown) > 0)
-      score = std::min(1.0, score + task.bare_wood_price * bare_share(view.crown, masks[i], leaves[i]));
+      score = std::min(1.0, score + task.bare_wood_price * misplaced_share(view, masks[i], leaves[i]));
     sum += score;
   }
   return sum / static_cast<double>(masks.size());

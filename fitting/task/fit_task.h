@@ -30,6 +30,7 @@ struct TargetView {
   float metres_per_px = 0;  ///< in the plane through the base
   PictureReading reading;   ///< what the mask says of its tree
   Mask crown = {};          ///< where leaves are expected; empty: nowhere
+  PlantLabels labels = {};  ///< what the picture's colours say
 };
 
 /// A target mask whose tree, `tree_height_px` tall with its base at base_row_px, is `height_m` tall. Reads
@@ -45,8 +46,8 @@ struct FitTask {
   std::shared_ptr<const Volume> envelope;      ///< what growth.prune_to points to, if the tree is trained
   Overrides overrides;                         ///< of every candidate of the search
   std::shared_ptr<const ChangeGraph> changes;  ///< the same, which growth.changes points to
-  double bare_wood_price = 0;                  ///< in dissimilarity, of a crown that wood alone covers
-  Freedom freedom;                             ///< of single branches
+  double bare_wood_price = 0;  ///< in dissimilarity, of leaves and wood that all are in each other's places
+  Freedom freedom;             ///< of single branches
   RendererFactory make_renderer = make_scanline_renderer;
   std::vector<std::string> warnings;  ///< what its pictures leave to be desired, a line each
 };
@@ -63,8 +64,9 @@ inline std::vector<Mask> draw_candidate(const FitTask& task, const ParameterValu
 }
 
 /// What a candidate is searched by, of its silhouettes in all views and of what leaves cover of them: the
-/// mean of the objective and, where leaves are expected, of the price for the pixels that only wood covers.
-/// `leaves` is only looked at in views that expect some. In [0, 1], 0 is best.
+/// mean of the objective and, where leaves are expected, of the price for the pixels that only wood covers,
+/// and for leaves where the picture shows wood. `leaves` is only looked at in views that expect some. In [0,
+/// 1], 0 is best.
 double score_of_masks(const FitTask& task, std::span<const Mask> masks, std::span<const Mask> leaves);
 
 /// Whether leaves are drawn apart for it.

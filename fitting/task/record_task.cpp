@@ -11,12 +11,13 @@ namespace espalier {
 
 namespace {
 
-/// FNV-1a over a mask's bits and the height of its tree, as hexadecimal digits.
+/// FNV-1a over the bits of a mask and its labels, and the height of its tree.
 std::uint64_t hash_target(const TargetPicture& target, std::uint64_t hash) {
   const auto add = [&hash](std::uint64_t word) {
     for (int i = 0; i < 8; ++i, word >>= 8) hash = (hash ^ (word & 0xff)) * 0x100000001b3ull;
   };
-  for (const std::uint64_t word : target.mask.words()) add(word);
+  for (const Mask* mask : {&target.mask, &target.labels.leaf, &target.labels.wood})
+    for (const std::uint64_t word : mask->words()) add(word);
   add(static_cast<std::uint64_t>(target.tree_height_px * 256));
   return hash;
 }
@@ -24,7 +25,7 @@ std::uint64_t hash_target(const TargetPicture& target, std::uint64_t hash) {
 /// Of a tree that is leafy, as the record says or the first picture shows.
 void expect_leaves(const FitRecord& record, TreeKind seen, TargetView& view) {
   const KindChoice kind = record.kind == KindChoice::automatic ? choice_of(seen) : record.kind;
-  if (kind == KindChoice::leafy) view.crown = crown_of(view.target.mask(), view.reading);
+  if (kind == KindChoice::leafy) view.crown = crown_of(view.target.mask(), view.reading, view.labels);
 }
 
 /// Reads the pictures into the task and their hash into the record.
@@ -37,7 +38,10 @@ void read_views(FitRecord& record, FitTask& task) {
       task.warnings.push_back(fmt::format("{}: {}", view.picture.string(), fault));
     task.views.push_back(
         make_target_view(target.mask, target.tree_height_px, view.view, target_height_m(record)));
-    expect_leaves(record, task.views.front().reading.kind, task.views.back());
+    TargetView& made = task.views.back();
+    made.reading.kind = kind_with_labels(made.reading.kind, target.labels);
+    made.labels = target.labels;
+    expect_leaves(record, task.views.front().reading.kind, made);
   }
   const std::string hash_text = fmt::format("{:016x}", hash);
   if (!record.target_hash.empty() && record.target_hash != hash_text)

@@ -9,6 +9,7 @@
 #include <espalier/app/options/target_options.h>
 #include <espalier/fitting/picture/picture_reading.h>
 #include <espalier/image/pictures/picture.h>
+#include <espalier/image/reading/label_picture.h>
 #include <espalier/image/reading/read_target.h>
 
 namespace espalier {
@@ -16,7 +17,7 @@ namespace espalier {
 namespace {
 
 struct TargetPaths {
-  std::string image, output;
+  std::string image, output, labels;
   bool all_trees = false;
 };
 
@@ -38,13 +39,17 @@ std::string reading_in_words(const PictureReading& reading) {
 void run_target(const TargetPaths& paths, const TargetOptions& options) {
   const TargetPicture target = read_target(paths.image, options);
   write_mask_png(paths.output, target.mask);
+  if (!paths.labels.empty()) write_png(paths.labels, label_picture(target.mask, target.labels));
   const double share = static_cast<double>(area_px(target.mask)) / options.size_px / options.size_px;
   fmt::print("{}: {}\n", paths.image, target.how);
   for (const std::string& fault : describe(target.faults, options.one_tree))
     fmt::print(stderr, "espalier: warning: {}: {}\n", paths.image, fault);
   fmt::print("{}: {}×{} px, the tree is {:.1f} px tall and covers {:.1f} %\n", paths.output, options.size_px,
              options.size_px, target.tree_height_px, 100 * share);
-  fmt::print("{}: {}\n", paths.output, reading_in_words(read_picture(target.mask)));
+  PictureReading reading = read_picture(target.mask);
+  reading.kind = kind_with_labels(reading.kind, target.labels);
+  fmt::print("{}: {}\n", paths.output, reading_in_words(reading));
+  fmt::print("{}: {}\n", paths.image, target.labels.how);
 }
 
 }  // namespace
@@ -58,7 +63,9 @@ void add_target_command(CLI::App& app) {
   command->add_option("--size", options->size_px, "side of the square mask in pixels")->capture_default_str();
   command->add_flag("--all-trees", paths->all_trees,
                     "show several trees of a picture as one (default: the largest alone)");
+  command->add_option("--labels", paths->labels, "a picture (PNG) of leaves, wood and what is in doubt");
   command->callback([paths, options] {
+    options->labels = LabelChoice::automatic;
     options->one_tree = !paths->all_trees;
     run_target(*paths, *options);
   });

@@ -12,11 +12,6 @@ namespace espalier {
 
 namespace {
 
-/// Where the tree stands, in source pixels.
-struct Foot {
-  double x = 0, y = 0;
-};
-
 /// The middle of the trunk above its roots, or the mean x of the set pixels in the lowest 2 % of the tree's
 /// rows.
 double find_foot_x(const Mask& mask, const MaskBox& box) {
@@ -76,23 +71,6 @@ double framing_scale(const MaskBox& box, double foot_x, int size_px) {
   return size_px * std::min(kFramedHeight / static_cast<double>(box.height()), kFramedHalfWidth / half_width);
 }
 
-/// Sets the pixels of which the tree covers at least half. A footprint smaller than a source pixel is
-/// widened to one, which rounds the steps of an enlarged mask.
-Mask resample(const Mask& source, const Foot& foot, double scale, int size_px) {
-  const AreaTable table(source);
-  const double half = std::max(0.5, 0.5 / scale);
-  Mask mask(size_px, size_px);
-  for (int y = 0; y < size_px; ++y) {
-    const double source_y = foot.y + (y + 0.5 - base_row_px(size_px)) / scale;
-    for (int x = 0; x < size_px; ++x) {
-      const double source_x = foot.x + (x + 0.5 - 0.5 * size_px) / scale;
-      const double covered = table.area(source_x - half, source_y - half, source_x + half, source_y + half);
-      mask.set(x, y, covered >= 0.5 * (2 * half) * (2 * half));
-    }
-  }
-  return mask;
-}
-
 }  // namespace
 
 void check_frame_size(int size_px) {
@@ -101,14 +79,40 @@ void check_frame_size(int size_px) {
                       kMaxFrameSize);
 }
 
+Framing framing_of(const Mask& mask, int size_px) {
+  const MaskBox box = box_of(mask);
+  const double foot_x = find_foot_x(mask, box);
+  return {foot_x, static_cast<double>(box.bottom), framing_scale(box, foot_x, size_px), size_px};
+}
+
+/// Sets the pixels of which the tree covers at least half. A footprint smaller than a source pixel is
+/// widened to one, which rounds the steps of an enlarged mask.
+Mask place(const Mask& source, const Framing& framing, int px_per_block) {
+  const AreaTable table(source);
+  const int size_px = framing.size_px;
+  const double scale = framing.frame_px_per_px * px_per_block;
+  const double foot_x = framing.foot_x / px_per_block, foot_y = framing.foot_y / px_per_block;
+  const double half = std::max(0.5, 0.5 / scale);
+  Mask mask(size_px, size_px);
+  for (int y = 0; y < size_px; ++y) {
+    const double source_y = foot_y + (y + 0.5 - base_row_px(size_px)) / scale;
+    for (int x = 0; x < size_px; ++x) {
+      const double source_x = foot_x + (x + 0.5 - 0.5 * size_px) / scale;
+      const double covered = table.area(source_x - half, source_y - half, source_x + half, source_y + half);
+      mask.set(x, y, covered >= 0.5 * (2 * half) * (2 * half));
+    }
+  }
+  return mask;
+}
+
 TargetPicture frame_mask(const Mask& mask, int size_px, const std::string& name) {
   check_frame_size(size_px);
   const MaskBox box = box_of(mask);
   if (box.is_empty()) throw_input_error("{}: shows no tree: nothing is set", name);
-  const Foot foot{find_foot_x(mask, box), static_cast<double>(box.bottom)};
-  const double scale = framing_scale(box, foot.x, size_px);
+  const Framing framing = framing_of(mask, size_px);
+  const double scale = framing.frame_px_per_px;
   TargetPicture target;
-  target.mask = resample(mask, foot, scale, size_px);
+  target.mask = place(mask, framing);
   if (area_px(target.mask) == 0)
     throw_input_error("{}: shows no tree: it is too thin for a frame of {} pixels", name, size_px);
   target.tree_height_px = static_cast<float>(box.height() * scale);

@@ -40,26 +40,52 @@ void clean(Separation& separation, const TargetOptions& options) {
   separation.how += fmt::format("; pinholes under {} px filled ({} px)", speck_px, area_px(mask) - cleaned);
 }
 
+/// The picture's tree alone: separated, in the picture's own size and place.
+Separation separate(const DecodedPicture& picture, const TargetOptions& options, const std::string& name) {
+  Separation separation = separate_tree(picture, options.method, options.side, name);
+  check_shows_a_tree(separation.mask, name, separation.how);
+  return separation;
+}
+
+/// What a target says of the picture that it was made of.
+void tell_source(const DecodedPicture& picture, TargetPicture& target) {
+  target.source_width_px = picture.source_width_px;
+  target.source_height_px = picture.source_height_px;
+  target.frame_px_per_source_px *=
+      static_cast<float>(picture.width_px) / static_cast<float>(picture.source_width_px);
+}
+
+Mask both(const Mask& a, Mask b) {
+  for (std::size_t i = 0; i < b.words().size(); ++i) b.words()[i] &= a.words()[i];
+  return b;
+}
+
+/// Labels the tree where it stands in the picture, and places the labels where the target shows it.
+PlantLabels framed_labels(const DecodedPicture& picture, const Mask& tree, const Mask& target) {
+  PlantLabels labels = label_plant(picture, tree);
+  if (!labels.are_known()) return labels;
+  const Framing framing = framing_of(tree, target.width_px());
+  labels.leaf = both(target, place(labels.leaf, framing, labels.px_per_label));
+  labels.wood = both(target, place(labels.wood, framing, labels.px_per_label));
+  return labels;
+}
+
 }  // namespace
 
 TargetPicture read_mask(const fs::path& path, const TargetOptions& options) {
   const DecodedPicture picture = decode_picture(path);
-  Separation separation = separate_tree(picture, options.method, options.side, path.string());
-  check_shows_a_tree(separation.mask, path.string(), separation.how);
+  Separation separation = separate(picture, options, path.string());
   TargetPicture target;
   target.mask = std::move(separation.mask);
-  target.source_width_px = picture.source_width_px;
-  target.source_height_px = picture.source_height_px;
-  target.frame_px_per_source_px =
-      static_cast<float>(picture.width_px) / static_cast<float>(picture.source_width_px);
   target.how = std::move(separation.how);
+  tell_source(picture, target);
   return target;
 }
 
 TargetPicture read_target(const fs::path& path, const TargetOptions& options) {
   check_frame_size(options.size_px);
-  TargetPicture source = read_mask(path, options);
-  Separation separation{std::move(source.mask), std::move(source.how)};
+  const DecodedPicture picture = decode_picture(path);
+  Separation separation = separate(picture, options, path.string());
   clean(separation, options);
   check_shows_a_tree(separation.mask, path.string(), separation.how);
   const PictureFaults faults = picture_faults(separation.mask);
@@ -68,11 +94,11 @@ TargetPicture read_target(const fs::path& path, const TargetOptions& options) {
     separation.how += fmt::format("; the largest of {} trees", faults.trees);
   }
   TargetPicture target = frame_mask(separation.mask, options.size_px, path.string());
-  target.frame_px_per_source_px *= source.frame_px_per_source_px;
-  target.source_width_px = source.source_width_px;
-  target.source_height_px = source.source_height_px;
+  tell_source(picture, target);
   target.how = fmt::format("{}; {}", separation.how, target.how);
   target.faults = faults;
+  if (options.labels == LabelChoice::automatic)
+    target.labels = framed_labels(picture, separation.mask, target.mask);
   return target;
 }
 

@@ -9,6 +9,7 @@
 #include <espalier/image/masks/mask.h>
 #include <espalier/image/reading/frame.h>
 #include <espalier/image/reading/picture_faults.h>
+#include <espalier/image/reading/plant_labels.h>
 
 namespace espalier {
 
@@ -33,6 +34,13 @@ inline constexpr auto kNames<TreeSide> = std::to_array<Name<TreeSide>>({{TreeSid
                                                                         {TreeSide::light, "light"},
                                                                         {TreeSide::dark, "dark"}});
 
+/// Whether leaves and wood are told apart by their colours [plant_labels.h].
+enum class LabelChoice { automatic, none };
+
+template <>
+inline constexpr auto kNames<LabelChoice> =
+    std::to_array<Name<LabelChoice>>({{LabelChoice::automatic, "auto"}, {LabelChoice::none, "none"}});
+
 struct TargetOptions {
   int size_px = 256;  ///< side of the square frame, 16..4096
   SeparationMethod method = SeparationMethod::automatic;
@@ -40,6 +48,7 @@ struct TargetOptions {
   int speck_px = -1;           ///< pieces of the source smaller than this are dropped; -1: chosen by size
   bool fill_pinholes = false;  ///< fill holes smaller than speck_px
   bool one_tree = false;       ///< of several trees in a picture, the largest; else all as one
+  LabelChoice labels = LabelChoice::none;
 };
 
 struct TargetPicture {
@@ -49,6 +58,7 @@ struct TargetPicture {
   int source_width_px = 0, source_height_px = 0;
   std::string how;       ///< one line: how the mask was made
   PictureFaults faults;  ///< of the picture; only read_target looks for them
+  PlantLabels labels;    ///< of the mask's size and within it; only of read_target, where they are asked for
 };
 
 /// Throws InputError (one line, naming the file) for what is no readable picture, claims more than
@@ -57,6 +67,20 @@ TargetPicture read_target(const std::filesystem::path& path, const TargetOptions
 
 /// Only separated and cleaned, in the picture's own size and place.
 TargetPicture read_mask(const std::filesystem::path& path, const TargetOptions& options = {});
+
+/// The part of a picture that the frame shows: where the tree stands, in its pixels, and how large it
+/// becomes.
+struct Framing {
+  double foot_x = 0, foot_y = 0, frame_px_per_px = 1;
+  int size_px = 0;
+};
+
+/// Of a mask that holds a tree.
+Framing framing_of(const Mask& mask, int size_px);
+
+/// What is set in `mask`, in the frame. Its pixels are blocks of px_per_block of those that the framing
+/// knows.
+Mask place(const Mask& mask, const Framing& framing, int px_per_block = 1);
 
 /// Places a mask that holds a tree in the frame of `size_px`. Throws InputError (opening with `name`)
 /// where nothing is set.

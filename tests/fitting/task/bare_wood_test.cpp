@@ -28,7 +28,7 @@ Mask empty(const Mask& like) { return Mask(like.width_px(), like.height_px()); }
 TEST(BareWood, ACrownIsWhatTheMaskHasAboveItsBase) {
   Mask mask(20, 20);
   for (int y = 0; y < 10; ++y) mask.set(10, y + 5), mask.set(3, y + 5);
-  const Mask crown = crown_of(mask, {.crown_base = 0.4});
+  const Mask crown = crown_of(mask, {.crown_base = 0.4}, {});
   for (int y = 0; y < 20; ++y)
     for (int x = 0; x < 20; ++x) EXPECT_EQ(crown.get(x, y), mask.get(x, y) && y < 11) << x << ' ' << y;
 }
@@ -81,6 +81,64 @@ TEST(BareWood, TheScorerTakesItFromATreeWithoutLeaves) {
   EXPECT_GT(rise(bare), 0.01);
   EXPECT_GE(rise(leafy), 0);
   EXPECT_LT(rise(leafy), rise(bare));
+}
+
+/// Two columns of a crown, the left of which shows leaves and the right wood.
+TargetView labelled_view() {
+  Mask mask(8, 8), leaf(8, 8), wood(8, 8);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 2; x < 6; ++x) {
+      mask.set(x, y);
+      (x < 4 ? leaf : wood).set(x, y);
+    }
+  TargetView view = make_target_view(mask, 8, {}, 10);
+  view.labels = {.leaf = leaf, .wood = wood, .leaf_share = 0.5, .wood_share = 0.5};
+  view.crown = crown_of(mask, view.reading, view.labels);
+  return view;
+}
+
+TEST(Labels, TheCrownIsWhatShowsLeavesAndNotWhatShowsWood) {
+  const TargetView view = labelled_view();
+  EXPECT_EQ(view.crown, view.labels.leaf);
+}
+
+TEST(Labels, WoodInTheLeavesPlaceAndLeavesInTheWoodsCostTheSame) {
+  FitTask task;
+  task.objective = parse_objective("iou");
+  task.bare_wood_price = 0.4;
+  task.views = {labelled_view()};
+  const Mask& target = task.views[0].target.mask();
+  const auto score = [&](const Mask& leaves) { return score_of_masks(task, {&target, 1}, {&leaves, 1}); };
+  EXPECT_EQ(score(task.views[0].labels.leaf), 0);
+  EXPECT_DOUBLE_EQ(score(task.views[0].labels.wood), 0.4);
+  EXPECT_DOUBLE_EQ(score(target), 0.2) << "leaves over the wood";
+  EXPECT_DOUBLE_EQ(score(empty(target)), 0.2) << "wood in the place of leaves";
+}
+
+TEST(Labels, AnOpenCrownWithLeavesIsLeafy) {
+  const PlantLabels leaves{.leaf_share = 0.4, .wood_share = 0.3}, few{.leaf_share = 0.1, .wood_share = 0.8};
+  EXPECT_EQ(kind_with_labels(TreeKind::leafless, leaves), TreeKind::leafy);
+  EXPECT_EQ(kind_with_labels(TreeKind::leafless, few), TreeKind::leafless);
+  EXPECT_EQ(kind_with_labels(TreeKind::leafless, {}), TreeKind::leafless);
+  EXPECT_EQ(kind_with_labels(TreeKind::palm, leaves), TreeKind::palm);
+  EXPECT_EQ(kind_with_labels(TreeKind::leafy, few), TreeKind::leafy);
+}
+
+/// The fir's crown is green, so a task of it has labels, and its hash tells them from a task without.
+TEST(Labels, AreReadWhereTheRecordAsksForThem) {
+  FitRecord record;
+  record.views = {{fs::path(ESPALIER_SOURCE_DIR) / "targets/fir.png", {}}};
+  record.target.size_px = 64;
+  FitRecord without = record;
+  without.target.labels = LabelChoice::none;
+  const FitTask labelled = make_task(record), plain = make_task(without);
+  EXPECT_GT(labelled.views[0].labels.leaf_share, 0.5);
+  EXPECT_FALSE(plain.views[0].labels.are_known());
+  EXPECT_NE(record.target_hash, without.target_hash);
+  const PlantLabels& labels = labelled.views[0].labels;
+  const Mask& mask = labelled.views[0].target.mask();
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) EXPECT_LE(labels.leaf.get(x, y) + labels.wood.get(x, y), mask.get(x, y));
 }
 
 }  // namespace
