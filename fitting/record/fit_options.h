@@ -29,7 +29,7 @@ using OptionMember =
     std::variant<Member<bool>, Member<int>, Member<long>, Member<Seed>, Member<double>,
                  Member<std::optional<double>>, Member<std::string>, Member<std::vector<std::string>>,
                  Member<std::map<std::string, double>>, Member<std::vector<ViewRecord>>, Member<KindChoice>,
-                 Member<SeparationMethod>, Member<TreeSide>, Member<FitStages>>;
+                 Member<SeparationMethod>, Member<TreeSide>, Member<LabelChoice>, Member<FitStages>>;
 
 /// A word for a number that means something else than an amount.
 struct NumberWord {
