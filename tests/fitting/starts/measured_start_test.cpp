@@ -17,6 +17,7 @@ FitRecord record_of(const std::string& target, KindChoice kind = KindChoice::aut
   FitRecord record;
   record.views = {{std::filesystem::path(ESPALIER_SOURCE_DIR) / "targets" / (target + ".png"), {}}};
   record.target.size_px = 64;
+  record.growth = {600, 6'000};
   record.kind = kind;
   return record;
 }
@@ -31,13 +32,13 @@ class MeasuredStart : public testing::TestWithParam<const char*> {};
 TEST_P(MeasuredStart, EveryStartIsInTheRangesAndValid) {
   FitRecord record = record_of(GetParam());
   const FitTask task = make_task(record);
-  const SearchChoice choice = plan_of(record, task).choice;
-  ASSERT_FALSE(choice.ranges.empty());
+  const FitPlan plan = plan_of(record, task);
+  ASSERT_FALSE(plan.choice.ranges.empty());
   const ParameterTable& table = task.model->table();
-  for (const StartPoint& start : plan_of(record, task).starts)
-    for (const auto& [name, range] : choice.ranges) {
+  for (const StartPoint& start : plan.starts)
+    for (const auto& [name, range] : plan.choice.ranges) {
       const double value = start.values[table.index_of(name)];
-      if (choice.fixed.contains(name)) continue;
+      if (plan.choice.fixed.contains(name)) continue;
       EXPECT_GE(value, range.lower) << start.name << " " << name;
       EXPECT_LE(value, range.upper) << start.name << " " << name;
     }
@@ -45,12 +46,12 @@ TEST_P(MeasuredStart, EveryStartIsInTheRangesAndValid) {
 
 TEST_P(MeasuredStart, TheSearchStaysInTheRanges) {
   FitRecord record = record_of(GetParam());
+  record.start = "palm";
   const FitTask task = make_task(record);
-  const SearchChoice choice = plan_of(record, task).choice;
-  const SearchSpace space =
-      make_search_space(task.model->table(), plan_of(record, task).starts.front().values, choice);
+  const FitPlan plan = plan_of(record, task);
+  const SearchSpace space = make_search_space(task.model->table(), plan.starts.front().values, plan.choice);
   for (const FreeParameter& free : space.free)
-    if (const auto range = choice.ranges.find(free.name); range != choice.ranges.end()) {
+    if (const auto range = plan.choice.ranges.find(free.name); range != plan.choice.ranges.end()) {
       EXPECT_GE(value_at(free, 0), range->second.lower) << free.name;
       EXPECT_LE(value_at(free, 1), range->second.upper) << free.name;
     }
