@@ -111,5 +111,35 @@ TEST_F(TargetCommand, ADiskThatFillsUpLeavesTheOldFile) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
 }
 
+/// A trunk and a crown that is cut off above: a fit and the command both say so, a line each.
+TEST_F(TargetCommand, WarningsOfAPictureGoToStderr) {
+  Mask mask(128, 128);
+  for (int y = 0; y < 120; ++y)
+    for (int x = y < 70 ? 44 : 60; x < (y < 70 ? 84 : 68); ++x) mask.set(x, y);
+  const fs::path picture = folder_ / "cut.png";
+  write_mask_png(picture, mask);
+  const std::string warning =
+      fmt::format("espalier: warning: {}: the tree runs into the upper", picture.string());
+  const ProgramRun fitted =
+      run_espalier(fmt::format("fit {} --evaluations 5 --branch-rounds 0 --size 32 --start palm --out {}",
+                               quoted(picture), quoted(folder_ / "run")));
+  EXPECT_EQ(fitted.exit_code, 0) << fitted.err;
+  EXPECT_THAT(fitted.err, HasSubstr(warning));
+  EXPECT_THAT(run_espalier(fmt::format("target {} -o /dev/null", quoted(picture))).err, HasSubstr(warning));
+}
+
+/// The fir is green: its labels are a picture of leaves, and the command says how they were told.
+TEST_F(TargetCommand, LabelsAreWrittenAndExplained) {
+  const fs::path labels = folder_ / "labels.png";
+  const ProgramRun run = run_espalier(fmt::format("target {} -o {} --size 64 --labels {}", fir_,
+                                                  quoted(folder_ / "mask.png"), quoted(labels)));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("leaves by their green"));
+  EXPECT_TRUE(fs::exists(labels));
+  const ProgramRun refused = run_espalier(
+      fmt::format("target {} -o {} --labels /nonexistent/x.png", fir_, quoted(folder_ / "m.png")));
+  expect_one_clear_error(refused);
+}
+
 }  // namespace
 }  // namespace espalier

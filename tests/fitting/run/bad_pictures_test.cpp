@@ -8,7 +8,7 @@
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/image/pictures/picture.h>
 
-#include "support/run_espalier.h"
+#include "support/temporary_folders.h"
 
 namespace espalier {
 namespace {
@@ -98,19 +98,6 @@ TEST(BadPicture, WithoutRoomForATrunkTheTreeIsNotTrained) {
   EXPECT_THAT(trained.warnings[0], HasSubstr("no room for a trunk"));
   EXPECT_EQ(trained.summary["trained_to_target"], false);
   EXPECT_EQ(trained.summary["fitness"], free.summary["fitness"]);
-}
-
-TEST(BadPicture, WarningsGoToStderrALineEach) {
-  const fs::path picture = picture_of("lines", {{44, 0, 84, 70}, kTrunk});
-  const std::string arguments = "fit '" + picture.string() +
-                                "' --evaluations 5 --branch-rounds 0 --size 32 " + "--start palm --out '" +
-                                (fresh_folder("lines") / "run").string() + "'";
-  const ProgramRun run = run_espalier(arguments);
-  EXPECT_EQ(run.exit_code, 0);
-  EXPECT_THAT(run.err,
-              HasSubstr("espalier: warning: " + picture.string() + ": the tree runs into the upper"));
-  const ProgramRun target = run_espalier("target '" + picture.string() + "' -o /dev/null");
-  EXPECT_THAT(target.err, HasSubstr("espalier: warning: "));
 }
 
 }  // namespace
