@@ -54,7 +54,8 @@ struct FitRecord {
                       60'000};  ///< species have 9,000 to 250,000 leaves: fewer make nests of thick wood
   Seed seed = 1;
   std::string start = "auto";
-  std::string space;  ///< "species:2": search two coordinates of the species space first; empty: do not
+  std::string species;  ///< the preset that the search keeps to; empty: it does not
+  std::string space;    ///< "species:2": search two coordinates of the species space first; empty: do not
   long space_evaluations = 300;  ///< most of that first search
   SearchChoice search;
   KindChoice kind = KindChoice::any;  ///< of tree

@@ -2,20 +2,23 @@
 
 #include <optional>
 
+#include <espalier/core/field_error.h>
 #include <espalier/fitting/branches/palm_trunk.h>
 #include <espalier/fitting/starts/fit_plan.h>
 #include <espalier/fitting/starts/measured_start.h>
+#include <espalier/fitting/starts/species_range.h>
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/image/reading/roots.h>
+#include <espalier/models/preset.h>
 
 namespace espalier {
 
 namespace {
 
 /// Where fits of palms start: from what the model has with fronds.
-std::string palm_starts(const Model& model, const std::string& start) {
+std::string palm_starts(const Model& model) {
   const std::vector<std::string> presets = model.palm_presets();
-  return presets.empty() ? start : fmt::format("{}", fmt::join(presets, ","));
+  return presets.empty() ? "auto" : fmt::format("{}", fmt::join(presets, ","));
 }
 
 /// Makes the parts of a plan in their order: each may look at those before it.
@@ -35,6 +38,7 @@ class Planner {
     plan_.choice = record_.search;
     trunk_ = held_trunk();
     if (record_.search.free.empty()) restrict_choice();
+    if (!record_.species.empty()) stay_with_species();
     plan_.starts = starts();
     if (trunk_) plan_.held = lay_palm_trunk(task_, *trunk_, plan_.starts.front().values);
     return std::move(plan_);
@@ -44,6 +48,13 @@ class Planner {
   /// Whether the picture is to say anything.
   bool is_read() const { return record_.kind != KindChoice::any; }
   bool starts_are_ours() const { return record_.start == "auto"; }
+
+  /// What the search starts from: what the user names, or what there is.
+  std::string start_names() const {
+    if (!starts_are_ours()) return record_.start;
+    if (!record_.species.empty()) return record_.species;
+    return trunk_ ? palm_starts(*task_.model) : record_.start;
+  }
 
   /// The trunk that a palm is held to; none where the user says how to search, or the model has no such
   /// trunks.
@@ -75,11 +86,25 @@ class Planner {
       fix(name, value);
   }
 
+  /// After the picture's ranges, which give way to the species'.
+  void stay_with_species() {
+    Preset species = in_field("species", [&] { return load_preset(record_.species); });
+    if (species.model != table_.model)
+      throw_field_error("species", "got '{}' of model {}, expected a preset of {}", record_.species,
+                        species.model, table_.model);
+    prepare_start(*task_.model, record_.growth, height_m_, task_.plant_seeds.front(), species.values);
+    std::vector<ParameterValues> all;
+    for (const StartPoint& bundled : presets_as_written(table_, "auto")) all.push_back(bundled.values);
+    if (all.empty())
+      throw_field_error("species", "got model '{}', which has no bundled species to tell what one allows",
+                        record_.model);
+    keep_to_species(table_, species.values, spread_of_species(table_, all), plan_.choice);
+  }
+
   std::vector<StartPoint> starts() const {
     if (!record_.stages.search && !starts_are_ours()) return presets_as_written(table_, record_.start);
-    std::vector<StartPoint> starts =
-        make_start_points(*task_.model, trunk_ ? palm_starts(*task_.model, record_.start) : record_.start,
-                          plan_.choice, record_.growth, height_m_, task_.plant_seeds.front());
+    std::vector<StartPoint> starts = make_start_points(*task_.model, start_names(), plan_.choice,
+                                                       record_.growth, height_m_, task_.plant_seeds.front());
     for (StartPoint& start : starts) {
       if (is_read() && starts_are_ours()) measure(start.values);
       keep_in_ranges(table_, plan_.choice, start.values);

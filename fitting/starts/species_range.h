@@ -1,0 +1,27 @@
+// What one species allows of its parameters, beside how the species of a model differ. Lengths are compared
+// as shares of the tree's size, so that a small tree of a species is still of that species.
+#pragma once
+#include <span>
+#include <vector>
+
+#include <espalier/core/parameter_table.h>
+#include <espalier/fitting/record/search_space.h>
+
+namespace espalier {
+
+/// Standard deviation of each row over these species; 0 for choices.
+std::vector<double> spread_of_species(const ParameterTable& table, std::span<const ParameterValues> species);
+
+/// Half of the spread on both sides of the species' own values: closer to it than to most others. Choices,
+/// and what all species share, are fixed; the tree's size is left free. Added to `choice`, whose fixed values
+/// stay.
+void keep_to_species(const ParameterTable& table, const ParameterValues& species,
+                     std::span<const double> spread, SearchChoice& choice);
+
+/// How far a tree is from a species, in units of the spread: the root mean square over the rows that are free
+/// by default and differ among species. 0: its parameters are the species' own; 1: as far as species are from
+/// their mean.
+double departure(const ParameterTable& table, const ParameterValues& values, const ParameterValues& species,
+                 std::span<const double> spread);
+
+}  // namespace espalier
