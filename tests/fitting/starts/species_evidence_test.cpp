@@ -80,7 +80,7 @@ TEST(SpeciesEvidence, OfSpeciesThatLookLikeNoOtherIsForThem) {
     double sum = 0;
     for (std::size_t i = 0; i < evidence.size(); ++i) {
       sum += evidence[i].probability;
-      if (i > 0) EXPECT_LE(evidence[i].probability, evidence[i - 1].probability);
+      EXPECT_LE(evidence[i].probability, evidence[i == 0 ? 0 : i - 1].probability);
     }
     EXPECT_NEAR(sum, 1, 1e-9);
   }
