@@ -45,7 +45,6 @@ struct FitResult {
   std::size_t dimension = 0;
   CandidateFailures failures = {};  ///< since the run began or was resumed
   std::string identifiability;      ///< in words; empty where it was not measured
-  std::string species;              ///< that the picture may show, in words; empty where it was not asked
 };
 
 /// Runs the fit. All input is checked before `directory` is made. Throws InputError, for the record, its

@@ -4,7 +4,6 @@
 
 #include <espalier/fitting/identifiability/identifiability_files.h>
 #include <espalier/fitting/run/fit_run.h>
-#include <espalier/fitting/starts/species_range.h>
 
 namespace espalier {
 
@@ -119,24 +118,12 @@ void FitRun::portray_best() {
   state_.sheet = plant_sheet(plant, task_.views.front(), front);
 }
 
-/// What the picture may show, where the fit was not told.
-void FitRun::weigh_species() {
-  if (record_.start != "auto" || !record_.species.empty()) return;
-  const ParameterTable& table = task_.model->table();
-  state_.species = species_evidence(record_, task_, plan_);
-  if (state_.species.empty()) return;
-  std::vector<ParameterValues> all;
-  for (const SpeciesEvidence& row : state_.species) all.push_back(row.species.values);
-  state_.departure = departure(table, state_.best.values, all.front(), spread_of_species(table, all));
-}
-
 FitResult FitRun::finish() {
   if (state_.branches.copies.empty()) state_.best = scorer_.best();
   if (task_.growth.train) state_.metrics_untrained = untrained_metrics();
   if (!state_.branches.copies.empty())
     state_.full_size = look_at_full_size(record_, task_, sized_tasks_, state_.branches.best());
   portray_best();
-  weigh_species();
   refresh_directory();
   const auto best_start =
       std::max_element(state_.starts.begin(), state_.starts.end(),
@@ -155,8 +142,7 @@ FitResult FitRun::finish() {
           .dimension = dimension_,
           .failures = state_.failures,
           .identifiability =
-              state_.archive ? identifiability_in_words(state_.identifiability, *state_.archive) : "",
-          .species = species_in_words(state_.species, state_.departure)};
+              state_.archive ? identifiability_in_words(state_.identifiability, *state_.archive) : ""};
 }
 
 FitResult FitRun::run(const std::optional<SpeciesSpace>& species) {

@@ -60,7 +60,6 @@ class FitRun : public Observer {
   void identify_parameters();
   void warn_over_budget(const std::string& start, double factor) const;
   void portray_best();
-  void weigh_species();
 
   // fit_run_refinement.cpp
   bool will_refine() const;

@@ -13,7 +13,6 @@
 #include <espalier/fitting/run/plant_portrait.h>
 #include <espalier/fitting/search/logged_scorer.h>
 #include <espalier/fitting/search/trace.h>
-#include <espalier/fitting/starts/species_evidence.h>
 #include <espalier/fitting/task/fit_task.h>
 #include <espalier/fitting/task/plant_scorer.h>
 
@@ -46,8 +45,6 @@ struct RunState {
   IdentifiabilityReport identifiability = {};   ///< after it
   std::optional<PlantPortrait> portrait = {};   ///< of the best plant, once the run ends
   std::optional<Picture> sheet = {};            ///< likewise
-  std::vector<SpeciesEvidence> species = {};  ///< the likeliest first, where it began with all, once it ends
-  double departure = 0;                       ///< of the best tree from the likeliest (species_range.h)
 };
 
 /// What the branches of the best tree are overridden by.

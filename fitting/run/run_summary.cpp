@@ -33,16 +33,6 @@ nlohmann::ordered_json labels_to_json(const PlantLabels& labels) {
   return {{"leaf", labels.leaf_share}, {"wood", labels.wood_share}, {"how", labels.how}};
 }
 
-nlohmann::ordered_json species_to_json(const RunState& state) {
-  auto likely = nlohmann::ordered_json::array();
-  for (const SpeciesEvidence& row : state.species)
-    likely.push_back({{"name", row.species.name},
-                      {"probability", row.probability},
-                      {"dissimilarity", row.dissimilarity},
-                      {"own_dissimilarity", row.own_dissimilarity}});
-  return {{"likely", likely}, {"departure", state.departure}};
-}
-
 nlohmann::ordered_json portrait_to_json(const PlantPortrait& portrait) {
   return {{"visible_wood", portrait.visible_wood},
           {"depth_over_width", portrait.depth_over_width},
@@ -68,7 +58,6 @@ std::string run_summary(const RunState& state) {
     summary["full_size"]["size_px"] = state.full_size->best.front().width_px();
   }
   summary["labels"] = labels_to_json(state.task.views.front().labels);
-  if (!state.species.empty()) summary["species"] = species_to_json(state);
   if (state.portrait) summary["plant"] = portrait_to_json(*state.portrait);
   summary["best_at_evaluation"] = state.best.evaluation;
   summary["seconds"] = state.seconds;

@@ -54,16 +54,4 @@ void keep_to_species(const ParameterTable& table, const ParameterValues& species
   }
 }
 
-double departure(const ParameterTable& table, const ParameterValues& values, const ParameterValues& species,
-                 std::span<const double> spread) {
-  double squares = 0;
-  int count = 0;
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    if (!table.rows[row].free_by_default || is_size(table.rows[row]) || spread[row] <= 0) continue;
-    squares += std::pow((relative(table, row, values) - relative(table, row, species)) / spread[row], 2);
-    ++count;
-  }
-  return count > 0 ? std::sqrt(squares / count) : 0;
-}
-
 }  // namespace espalier

@@ -18,10 +18,4 @@ std::vector<double> spread_of_species(const ParameterTable& table, std::span<con
 void keep_to_species(const ParameterTable& table, const ParameterValues& species,
                      std::span<const double> spread, SearchChoice& choice);
 
-/// How far a tree is from a species, in units of the spread: the root mean square over the rows that are free
-/// by default and differ among species. 0: its parameters are the species' own; 1: as far as species are from
-/// their mean.
-double departure(const ParameterTable& table, const ParameterValues& values, const ParameterValues& species,
-                 std::span<const double> spread);
-
 }  // namespace espalier

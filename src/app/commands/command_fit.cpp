@@ -155,7 +155,6 @@ void print_result(const FitResult& result, const FitRecord& record, const fs::pa
   if (result.branch_steps > 0)
     fmt::print("{} branches refined in {} steps\n", result.overrides.nodes.size(), result.branch_steps);
   if (!result.identifiability.empty()) fmt::print("{}\n", result.identifiability);
-  if (!result.species.empty()) fmt::print("{}\n", result.species);
   fmt::print("files: {} (best.toml, best.png, overlay.png, convergence.png, summary.json)\n",
              directory.string());
 }
