@@ -44,7 +44,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 TARGETS = HERE.parents[1] / "targets"  # where fits run: pictures go by their names
 DIGESTS = ["fitted", "drawn"]
 VARYING_KEYS = {"seconds", "evaluations_per_second", "embree_disagreement_pixels"}
-LATER_KEYS = {"plant"}  # of summary.json, in no run when these were recorded; nor was tree.png, nor a preset's seed
+LATER_KEYS = {"plant", "labels"}  # of summary.json, in no run when these were recorded; nor was tree.png, nor a preset's seed
 LATER_FILES = {"tree.png"}
 HEX_DIGITS = 16
 

@@ -42,6 +42,7 @@ inline OptionSample sample_of_text(const FitOption& option) {
                                                           {"kind", "palm"},
                                                           {"target.method", "alpha"},
                                                           {"target.side", "dark"},
+                                                          {"target.labels", "none"},
                                                           {"target_hash", "0123"},
                                                           {"stages", "search"},
                                                           {"start", "palm"},

@@ -215,6 +215,7 @@ tree_side = "dark"
 speck_px = -1
 fill_pinholes = false
 one_tree = true  # of several, the largest; else all as one
+labels = "auto"
 hash = "0123456789abcdef"  # of the masks that were fitted
 
 [budget]  # 0: no limit
@@ -229,6 +230,7 @@ max_leaves = 100000.0
 [search]
 stages = "search,branches,finish"
 start = "palm"
+species = ""
 space = "species:2"  # searched first
 space_evaluations = 300
 bare_wood_price = 0.2
