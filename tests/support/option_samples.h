@@ -36,17 +36,13 @@ inline OptionSample sample_of_number(const FitOption& option) {
 
 /// Texts have grammars of their own; a name that nobody has is none of most.
 inline OptionSample sample_of_text(const FitOption& option) {
-  const std::map<std::string_view, std::string> others = {{"model", "small_pine.lsys"},
-                                                          {"objective", "iou"},
-                                                          {"optimizer", "random_search"},
-                                                          {"kind", "palm"},
-                                                          {"target.method", "alpha"},
-                                                          {"target.side", "dark"},
-                                                          {"target.labels", "none"},
-                                                          {"target_hash", "0123"},
-                                                          {"stages", "search"},
-                                                          {"start", "palm"},
-                                                          {"space", "species:3"}};
+  const std::map<std::string_view, std::string> others = {
+      {"model", "small_pine.lsys"},   {"objective", "iou"},
+      {"optimizer", "random_search"}, {"kind", "palm"},
+      {"target.method", "alpha"},     {"target.side", "dark"},
+      {"target.labels", "none"},      {"target_hash", "0123"},
+      {"stages", "search"},           {"start", "palm"},
+      {"space", "species:3"}};
   const auto other = others.find(option.field);
   OptionSample sample{other == others.end() ? "another" : other->second, "7", {}};
   const bool takes_any = option.field == "model" || option.field == "start" || option.field == "target_hash";
