@@ -13,7 +13,7 @@
 namespace espalier {
 namespace {
 
-const ParameterTable& weber_penn() { return model_by_name("weber_penn").weber_penn(); }
+const ParameterTable& weber_penn() { return model_by_name("weber_penn").table(); }
 
 std::vector<ParameterValues> all_species() {
   std::vector<ParameterValues> all;
