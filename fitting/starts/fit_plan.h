@@ -27,7 +27,8 @@ double usual_freedom(KindChoice kind);
 struct FitPlan {
   KindChoice kind = KindChoice::any;  ///< the record's; where that is automatic, the first picture's
   /// The record's choice and what the kind adds to it, unless that is any: no leaves on a leafless tree,
-  /// plausible ranges (measured_start.h), one trunk where the picture shows one foot.
+  /// plausible ranges (measured_start.h), one trunk where the picture shows one foot. Where a
+  /// species is named, what that allows (species_range.h).
   SearchChoice choice;
   /// The record's starts, of a palm those with fronds: thinned, as tall as the target, and to the measure of
   /// the picture. Presets that are named are as they are written where nothing is searched.
@@ -38,7 +39,7 @@ struct FitPlan {
   double freedom = kWholeFreedom;  ///< of single branches: the record's, or what the kind needs
 };
 
-/// Throws InputError where a start is no preset of the model.
+/// Throws InputError where a start, or the species, is no preset of the model.
 FitPlan plan_of(const FitRecord& record, const FitTask& task);
 
 /// Gives the task what the plan says of branches: the overrides that all candidates hold, and their freedom.

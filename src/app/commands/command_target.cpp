@@ -7,6 +7,7 @@
 
 #include <espalier/app/commands/commands.h>
 #include <espalier/app/options/target_options.h>
+#include <espalier/app/options/view_options.h>
 #include <espalier/fitting/picture/picture_reading.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/image/reading/label_picture.h>
@@ -37,6 +38,7 @@ std::string reading_in_words(const PictureReading& reading) {
 }
 
 void run_target(const TargetPaths& paths, const TargetOptions& options) {
+  if (!paths.labels.empty()) check_png_path(paths.labels);
   const TargetPicture target = read_target(paths.image, options);
   write_mask_png(paths.output, target.mask);
   if (!paths.labels.empty()) write_png(paths.labels, label_picture(target.mask, target.labels));

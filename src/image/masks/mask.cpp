@@ -12,4 +12,19 @@ std::size_t differing_px(const Mask& a, const Mask& b) {
   return count_and_not(a.words(), b.words()) + count_and_not(b.words(), a.words());
 }
 
+Mask either(Mask a, const Mask& b) {
+  for (std::size_t i = 0; i < a.words().size(); ++i) a.words()[i] |= b.words()[i];
+  return a;
+}
+
+Mask both(Mask a, const Mask& b) {
+  for (std::size_t i = 0; i < a.words().size(); ++i) a.words()[i] &= b.words()[i];
+  return a;
+}
+
+Mask without(Mask a, const Mask& b) {
+  for (std::size_t i = 0; i < a.words().size(); ++i) a.words()[i] &= ~b.words()[i];
+  return a;
+}
+
 }  // namespace espalier

@@ -61,4 +61,9 @@ std::size_t area_px(const Mask& mask);
 /// Number of pixels set in one mask and not in the other; both have the same size.
 std::size_t differing_px(const Mask& a, const Mask& b);
 
+/// What is set in `a` or in `b`, in both, or in `a` alone; all have the same size.
+Mask either(Mask a, const Mask& b);
+Mask both(Mask a, const Mask& b);
+Mask without(Mask a, const Mask& b);
+
 }  // namespace espalier

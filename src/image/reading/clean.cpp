@@ -60,16 +60,6 @@ RunSets join_touching(const std::vector<LabelledRun>& runs, int slack) {
   return sets;
 }
 
-/// What is set in `a` or in `b`.
-Mask either(Mask a, const Mask& b) {
-  for (std::size_t i = 0; i < a.words().size(); ++i) a.words()[i] |= b.words()[i];
-  return a;
-}
-Mask both(Mask a, const Mask& b) {
-  for (std::size_t i = 0; i < a.words().size(); ++i) a.words()[i] &= b.words()[i];
-  return a;
-}
-
 }  // namespace
 
 Mask large_pieces(const Mask& mask, std::size_t min_area_px, Connectivity connectivity) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <espalier/image/masks/mask_box.h>
+#include <espalier/image/masks/row_runs.h>
 #include <espalier/image/reading/color_classes.h>
 #include <espalier/image/reading/oklab.h>
 #include <espalier/image/reading/plant_labels.h>
@@ -69,20 +70,10 @@ Blocks blocks_of(const DecodedPicture& picture, const Mask& tree) {
   return blocks;
 }
 
-int span_px(const Mask& mask, int y) {
-  int first = mask.width_px(), last = -1;
-  for (int x = 0; x < mask.width_px(); ++x)
-    if (mask.get(x, y)) {
-      first = std::min(first, x);
-      last = x;
-    }
-  return std::max(0, last - first + 1);
-}
-
 /// The first row of the trunk: from the foot up to where the tree becomes wide.
 int crown_base_row(const Mask& tree, const MaskBox& box) {
   int row = box.bottom;
-  while (row > box.top && span_px(tree, row - 1) <= kTrunkWidth * box.width()) --row;
+  while (row > box.top && row_extent_px(tree, row - 1) <= kTrunkWidth * box.width()) --row;
   return row;
 }
 
@@ -97,7 +88,8 @@ std::vector<Color> colors_of_rows(const Blocks& blocks, int top, int bottom) {
   return colors;
 }
 
-double mean_leaf_probability(const TwoClasses& classes, const std::vector<Color>& colors) {
+/// Of colours, at least one.
+double share_of_leaves(const TwoClasses& classes, const std::vector<Color>& colors) {
   double sum = 0;
   for (const Color& color : colors) sum += classes.other_probability(color) > 0.5;
   return sum / static_cast<double>(colors.size());
@@ -116,7 +108,7 @@ std::optional<TwoClasses> classes_of(const Blocks& blocks) {
   if (trunk.size() < kLeastTrunkPx || crown.empty()) return std::nullopt;
   const TwoClasses classes = split_colors(trunk, crown);
   const bool apart = bhattacharyya_distance(classes.known, classes.other) >= kLeastDistance &&
-                     1 - mean_leaf_probability(classes, trunk) >= kLeastTrunkShare;
+                     1 - share_of_leaves(classes, trunk) >= kLeastTrunkShare;
   if (!apart || !could_be_leaves(classes.other.mean, classes.known.mean)) return std::nullopt;
   return classes;
 }

@@ -55,18 +55,13 @@ void tell_source(const DecodedPicture& picture, TargetPicture& target) {
       static_cast<float>(picture.width_px) / static_cast<float>(picture.source_width_px);
 }
 
-Mask both(const Mask& a, Mask b) {
-  for (std::size_t i = 0; i < b.words().size(); ++i) b.words()[i] &= a.words()[i];
-  return b;
-}
-
 /// Labels the tree where it stands in the picture, and places the labels where the target shows it.
 PlantLabels framed_labels(const DecodedPicture& picture, const Mask& tree, const Mask& target) {
   PlantLabels labels = label_plant(picture, tree);
   if (!labels.are_known()) return labels;
   const Framing framing = framing_of(tree, target.width_px());
-  labels.leaf = both(target, place(labels.leaf, framing, labels.px_per_label));
-  labels.wood = both(target, place(labels.wood, framing, labels.px_per_label));
+  labels.leaf = both(place(labels.leaf, framing, labels.px_per_label), target);
+  labels.wood = both(place(labels.wood, framing, labels.px_per_label), target);
   return labels;
 }
 

@@ -68,20 +68,6 @@ TargetPicture read_target(const std::filesystem::path& path, const TargetOptions
 /// Only separated and cleaned, in the picture's own size and place.
 TargetPicture read_mask(const std::filesystem::path& path, const TargetOptions& options = {});
 
-/// The part of a picture that the frame shows: where the tree stands, in its pixels, and how large it
-/// becomes.
-struct Framing {
-  double foot_x = 0, foot_y = 0, frame_px_per_px = 1;
-  int size_px = 0;
-};
-
-/// Of a mask that holds a tree.
-Framing framing_of(const Mask& mask, int size_px);
-
-/// What is set in `mask`, in the frame. Its pixels are blocks of px_per_block of those that the framing
-/// knows.
-Mask place(const Mask& mask, const Framing& framing, int px_per_block = 1);
-
 /// Places a mask that holds a tree in the frame of `size_px`. Throws InputError (opening with `name`)
 /// where nothing is set.
 TargetPicture frame_mask(const Mask& mask, int size_px, const std::string& name = "mask");

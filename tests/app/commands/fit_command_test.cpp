@@ -169,6 +169,12 @@ TEST(FitCommand, ChoicesAreFixedByTheirNames) {
   expect_error(kPalm + " --set-optimizer population=0x10", "--set-optimizer: got '0x10' for population");
 }
 
+TEST(FitCommand, ASpeciesThatIsNoneIsRefused) {
+  expect_error(kPalm + " --species no_such_tree", "--species: ");
+  expect_error(kPalm + " --model small_pine.lsys --species apple",
+               "--species: got 'apple' of model weber_penn, expected a preset of small_pine");
+}
+
 TEST(FitCommand, AStartBeyondTheBudgetIsSaidToBe) {
   const fs::path run = fresh_folder("beyond") / "run";
   const ProgramRun done =

@@ -139,6 +139,7 @@ TEST_F(TargetCommand, LabelsAreWrittenAndExplained) {
   const ProgramRun refused = run_espalier(
       fmt::format("target {} -o {} --labels /nonexistent/x.png", fir_, quoted(folder_ / "m.png")));
   expect_one_clear_error(refused);
+  EXPECT_FALSE(fs::exists(folder_ / "m.png"));
 }
 
 }  // namespace
