@@ -28,7 +28,7 @@ constexpr const char* kAll = "all";
 /// What is compared: a method after one of its stages.
 struct Entry {
   std::string method, stage;
-  auto operator<=>(const Entry&) const = default;
+  auto operator<=>(const Entry&) const = default;  // NOLINT(modernize-use-nullptr): of its own 0
 };
 
 /// The runs of one entry on one target.

@@ -212,7 +212,7 @@ std::vector<SpaceDeclaration> read_spaces(const TomlSection& fits, const FitReco
 std::vector<std::string> read_starts(const TomlSection& fits, const FitRecord& shared) {
   if (!fits.has("starts")) return {"auto"};
   filled_array(fits, "starts");
-  const std::vector<std::string> starts = fits.texts("starts");
+  std::vector<std::string> starts = fits.texts("starts");
   for (const std::string& start : starts)
     located(fits, "starts", [&] { return presets_as_written(model_by_name(shared.model).table(), start); });
   return starts;
@@ -264,7 +264,7 @@ TargetGroups groups_in(const TomlSection& fits) {
 
 /// Members are targets of the experiment, or bundled ones that it leaves out.
 TargetGroups read_declared_groups(const TomlSection& fits, const std::vector<TargetDeclaration>& targets) {
-  const TargetGroups groups = groups_in(fits);
+  TargetGroups groups = groups_in(fits);
   std::vector<std::string> known = bundled_targets();
   for (const TargetDeclaration& target : targets) known.push_back(target.name);
   for (const auto& [group, members] : groups)

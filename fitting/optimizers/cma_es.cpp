@@ -74,8 +74,8 @@ std::vector<Eigen::VectorXd> in_order(const std::vector<Eigen::VectorXd>& candid
 double first_sigma(const Search& run, std::uint64_t restart) {
   if (const double given = run.setting("sigma0"); given > 0) return given;
   if (run.starts.empty()) return 0.3;
-  const double rounds = static_cast<double>(restart / run.starts.size());
-  return std::min(0.3, 0.05 * std::exp2(rounds));
+  const std::uint64_t round = restart / run.starts.size();
+  return std::min(0.3, 0.05 * std::exp2(static_cast<double>(round)));
 }
 
 /// One strategy from its first mean until it has nothing left to find.

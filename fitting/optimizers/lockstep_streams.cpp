@@ -6,6 +6,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <espalier/fitting/optimizers/lockstep_streams.h>
@@ -33,7 +34,7 @@ class LockstepExchange {
 
   void finish(std::size_t stream, std::exception_ptr error) noexcept {
     const std::lock_guard lock(mutex_);
-    slots_[stream].error = error;
+    slots_[stream].error = std::move(error);
     settle(slots_[stream], State::finished);
   }
 

@@ -51,8 +51,9 @@ std::vector<double> silhouette_changes(const Model& model, const std::vector<Par
   const auto stride = static_cast<std::size_t>(view.seeds);
   std::vector<Mask> masks(strip.size() * stride);
   parallel_for(masks.size(), [&](std::size_t i) {
-    const double t = static_cast<double>(i / stride) / static_cast<double>(strip.size() - 1);
-    masks[i] = silhouette(model, strip[i / stride], static_cast<Seed>(i % stride + 1),
+    const std::size_t step = i / stride;
+    const double t = static_cast<double>(step) / static_cast<double>(strip.size() - 1);
+    masks[i] = silhouette(model, strip[step], static_cast<Seed>(i % stride + 1),
                           first * std::pow(last / first, t), view.size_px);
   });
   std::vector<double> changes(strip.size() - 1, 0);

@@ -77,7 +77,7 @@ Picture tile_picture(const Model& model, const std::vector<std::vector<PlantTile
       tiles.push_back(&rows[j][i]);
       layout.images.push_back({corner, {}, {}});
       layout.labels.push_back(
-          {{corner.x_px + size / 2, corner.y_px + size + kTextRowPx / 2}, rows[j][i].text});
+          {{corner.x_px + size / 2, corner.y_px + size + 0.5F * kTextRowPx}, rows[j][i].text});
     }
   parallel_for(tiles.size(),
                [&](std::size_t i) { layout.images[i].picture = shaded_tile(model, *tiles[i], view); });

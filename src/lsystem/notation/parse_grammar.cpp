@@ -25,8 +25,8 @@ class Parser {
  public:
   explicit Parser(Grammar& grammar) : grammar_(grammar) { grammar.appearance = appearance_; }
 
-  void parse(std::shared_ptr<const Source> source, bool may_include) {
-    const FileText file = split_statements(std::move(source));
+  void parse(const std::shared_ptr<const Source>& source, bool may_include) {
+    const FileText file = split_statements(source);
     declare_symbols(file);
     grammar_.uses_light |= file.clean.find("light(") != std::string::npos;  // skylight( too
     for (const Statement& statement : file.statements) {
