@@ -3,7 +3,6 @@
 #include <map>
 
 #include <espalier/experiments/analysis/finished_fits.h>
-#include <espalier/experiments/runner/csv.h>
 #include <espalier/experiments/runner/experiment_directory.h>
 
 namespace espalier {
@@ -16,14 +15,6 @@ bool varies(const CsvTable& results, const std::string& column) {
   for (std::size_t i = 1; i < results.rows.size() && results.has(column); ++i)
     if (results.text(i, column) != results.text(0, column)) return true;
   return false;
-}
-
-/// What is compared: the optimiser, with the objective, space and start where these vary too.
-std::string method_of(const CsvTable& results, std::size_t row) {
-  std::string method;
-  for (const char* column : {"optimizer", "objective", "space", "start", "trained"})
-    if (varies(results, column)) method.append(method.empty() ? "" : ", ").append(results.text(row, column));
-  return method.empty() ? results.text(row, "optimizer") : method;
 }
 
 std::vector<GenerationRow> read_trace(const fs::path& path) {
@@ -68,6 +59,13 @@ FinishedFit read_fit(const CsvTable& results, std::size_t row, const fs::path& d
 }
 
 }  // namespace
+
+std::string method_of(const CsvTable& results, std::size_t row) {
+  std::string method;
+  for (const char* column : {"optimizer", "objective", "space", "start", "trained"})
+    if (varies(results, column)) method.append(method.empty() ? "" : ", ").append(results.text(row, column));
+  return method.empty() ? results.text(row, "optimizer") : method;
+}
 
 std::vector<FinishedFit> read_finished_fits(const fs::path& directory) {
   const CsvTable results = read_csv(directory / "results.csv");

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <espalier/experiments/runner/csv.h>
 #include <espalier/experiments/statistics/curves.h>
 
 namespace espalier {
@@ -20,6 +21,9 @@ struct FinishedFit {
   std::vector<GenerationRow> trace;
   StepCurve curve;  ///< of the best fitness
 };
+
+/// What is compared: the optimiser, with the objective, space and start where these vary too.
+std::string method_of(const CsvTable& results, std::size_t row);
 
 /// In the order of results.csv. Throws InputError for files that are missing or broken.
 std::vector<FinishedFit> read_finished_fits(const std::filesystem::path& directory);

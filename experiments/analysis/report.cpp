@@ -6,6 +6,7 @@
 #include <espalier/experiments/analysis/draw_report.h>
 #include <espalier/experiments/analysis/fit_tables.h>
 #include <espalier/experiments/analysis/growth_tables.h>
+#include <espalier/experiments/analysis/plant_tables.h>
 #include <espalier/experiments/analysis/report.h>
 #include <espalier/experiments/analysis/score_sheet.h>
 #include <espalier/experiments/analysis/start_picture.h>
@@ -46,6 +47,8 @@ std::string title_of(const std::string& file) {
       {"score_groups.csv", "Score sheet by groups: means of the pictures' means"},
       {"score_sheet.csv", "Score sheet: means over the seeds, the spread of the IoU over them"},
       {"results.csv", "All runs"},
+      {"plants.csv", "Plants: wood that shows, depth, leaves, numbers of overrides"},
+      {"sides.csv", "The side that no picture shows: fits beside trees of the true parameters"},
       {"ranks.csv", "Ranks: methods that share a letter do not differ"},
       {"friedman.csv", "Friedman's test"},
       {"growth_fit.csv", "Exponents: seconds = factor · size^exponent"},
@@ -158,6 +161,10 @@ fs::path write_report(const fs::path& directory, const ReportOptions& options) {
       meta["thumbnails"] = thumbnails_of(fits, directory);
     }
     meta["objective"] = objective_in(directory);
+    const CsvTable results = read_csv(directory / "results.csv");
+    for (CsvTable table :
+         {plant_table(results, read_groups(directory / "experiment.toml")), side_table(results)})
+      if (!table.rows.empty()) tables.emplace(table.source, std::move(table));
   }
   if (words.kind == "growth") tables = growth_tables(directory);
   tables.emplace("results.csv", read_csv(directory / "results.csv"));

@@ -48,6 +48,8 @@ struct FitsDeclaration {
   int threads = 1;                      ///< of each run; fewer runs at once then
   TargetGroups groups;                  ///< for means; none: no score sheet
   int unseen_seeds = 0;                 ///< trees of the result to grow with seeds that the fit never saw
+  int siblings =
+      0;  ///< trees of a target's species to score beside the result, on the side that it never saw
 };
 
 /// Changes that a row or a column of a sheet makes.

@@ -4,6 +4,7 @@
 
 #include <espalier/core/error.h>
 #include <espalier/experiments/runner/fit_runs.h>
+#include <espalier/experiments/runner/unseen_side.h>
 #include <espalier/experiments/runner/unseen_trees.h>
 #include <espalier/fitting/run/fit.h>
 #include <espalier/fitting/task/record_task.h>
@@ -58,9 +59,9 @@ ReadyTarget ready_target(const TargetDeclaration& target, const fs::path& direct
 struct FitCell {
   std::string name;
   Row labels;
-  std::string species;  ///< of the target, where it is drawn from one
+  KnownTree tree;  ///< the target's, where it is drawn from a species
   FitRecord record;
-  int unseen_seeds = 0, threads = 1;
+  int unseen_seeds = 0, siblings = 0, threads = 1;
 };
 
 /// Whether two records ask for the same: a record on disk also knows its target's hash and its versions.
@@ -96,6 +97,13 @@ void append(Row& row, const std::string& prefix, const UnseenScore& score) {
   row.emplace_back(prefix + "iou", table_number(score.iou));
 }
 
+void append(Row& row, const SideScores& scores) {
+  row.emplace_back("front_iou", table_number(scores.front_iou));
+  row.emplace_back("side_iou", table_number(scores.side_iou));
+  row.emplace_back("sibling_front_iou", table_number(scores.sibling_front_iou));
+  row.emplace_back("sibling_side_iou", table_number(scores.sibling_side_iou));
+}
+
 Measured measure(const FitResult& result, const FitCell& cell) {
   Measured measured;
   measured.results = {{"fitness", table_number(result.fitness)}};
@@ -105,11 +113,17 @@ Measured measure(const FitResult& result, const FitCell& cell) {
   }
   measured.results.emplace_back("evaluations", fmt::format("{}", result.evaluations));
   measured.results.emplace_back("stopped_by", name_of(result.stopped_by));
+  for (const PlantMeasure& measure : kPlantMeasures)
+    measured.results.emplace_back(measure.name,
+                                  result.portrait ? table_number((*result.portrait).*measure.value) : "");
   if (cell.unseen_seeds > 0) {
     const UnseenTrees unseen(cell.record, cell.unseen_seeds);
     append(measured.results, "unseen_", unseen.score(result.values));
-    if (!cell.species.empty()) append(measured.results, "truth_", unseen.score(unseen.truth(cell.species)));
+    if (!cell.tree.species.empty())
+      append(measured.results, "truth_", unseen.score(unseen.truth(cell.tree.species)));
   }
+  if (cell.siblings > 0 && !cell.tree.species.empty())
+    append(measured.results, score_sides(cell.record, result, cell.tree, cell.siblings));
   measured.times = {{"seconds", table_number(result.seconds)},
                     {"evaluations", fmt::format("{}", result.evaluations)}};
   return measured;
@@ -149,7 +163,7 @@ std::vector<FitCell> expand(const std::vector<FitCell>& cells, const std::string
 }
 
 std::string set_target(FitCell& cell, const ReadyTarget& target) {
-  cell.species = target.declaration.species;
+  cell.tree = {target.declaration.species, target.declaration.seed};
   cell.record.views[0].picture = target.picture;
   if (target.height_m) cell.record.height_m = target.height_m;
   return target.declaration.name;
@@ -184,8 +198,10 @@ std::string set_seed(FitCell& cell, Seed seed) {
 }
 
 std::vector<FitCell> all_cells(const FitsDeclaration& fits, const std::vector<ReadyTarget>& targets) {
-  std::vector<FitCell> cells{
-      {.record = fits.record, .unseen_seeds = fits.unseen_seeds, .threads = fits.threads}};
+  std::vector<FitCell> cells{{.record = fits.record,
+                              .unseen_seeds = fits.unseen_seeds,
+                              .siblings = fits.siblings,
+                              .threads = fits.threads}};
   cells = expand(cells, "target", targets, set_target);
   cells = expand(cells, "optimizer", fits.optimizers, set_optimizer);
   cells = expand(cells, "objective", fits.objectives, set_objective);
@@ -203,8 +219,10 @@ Plan plan_fits(const FitsDeclaration& fits, const fs::path& directory) {
   plan.threads_per_run = fits.threads;
   plan.result_columns = {"fitness"};
   for (const Metric& metric : kMetrics) plan.result_columns.emplace_back(metric.name);
-  for (const char* column :
-       {"evaluations", "stopped_by", "unseen_fitness", "unseen_iou", "truth_fitness", "truth_iou"})
+  for (const char* column : {"evaluations", "stopped_by"}) plan.result_columns.emplace_back(column);
+  for (const PlantMeasure& measure : kPlantMeasures) plan.result_columns.emplace_back(measure.name);
+  for (const char* column : {"unseen_fitness", "unseen_iou", "truth_fitness", "truth_iou", "front_iou",
+                             "side_iou", "sibling_front_iou", "sibling_side_iou"})
     plan.result_columns.emplace_back(column);
   plan.time_columns = {"seconds", "evaluations"};
   std::vector<ReadyTarget> targets;

@@ -301,8 +301,8 @@ FitRecord read_shared_record(const TomlSection& fits) {
 
 /// The lists that are varied, what belongs to an experiment alone, and the options that all runs share.
 std::vector<std::string> keys_of_fits() {
-  std::vector<std::string> keys{"targets", "optimizers", "objectives", "spaces",       "starts", "seeds",
-                                "view",    "trained",    "threads",    "unseen_seeds", "groups"};
+  std::vector<std::string> keys{"targets", "optimizers", "objectives", "spaces",       "starts",   "seeds",
+                                "view",    "trained",    "threads",    "unseen_seeds", "siblings", "groups"};
   for (const FitOption& option : fit_options())
     if (const std::string key = experiment_key(option); !key.empty()) keys.push_back(key);
   return keys;
@@ -323,6 +323,7 @@ FitsDeclaration read_fits(const TomlSection& fits) {
   declaration.threads = static_cast<int>(whole_between(fits, "threads", 1, 1024, 1));
   declaration.groups = read_declared_groups(fits, declaration.targets);
   declaration.unseen_seeds = static_cast<int>(whole_between(fits, "unseen_seeds", 0, 1000, 0));
+  declaration.siblings = static_cast<int>(whole_between(fits, "siblings", 0, 1000, 0));
   return declaration;
 }
 

@@ -18,6 +18,8 @@ class UnseenTrees {
   /// `count` seeds that a fit of this record never uses, against its target.
   UnseenTrees(FitRecord record, int count);
 
+  const std::vector<Seed>& seeds() const { return task_.plant_seeds; }
+
   UnseenScore score(const ParameterValues& values) const;
 
   /// The values of a species as fits begin with them: as tall as the target, the size not varying.

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <espalier/fitting/record/fit_record.h>
+#include <espalier/fitting/run/plant_portrait.h>
 #include <espalier/fitting/run/run_directory.h>
 #include <espalier/fitting/task/fit_task.h>
 #include <espalier/fitting/task/plant_scorer.h>
@@ -36,8 +37,10 @@ struct FitResult {
   ParameterValues values;
   double fitness = 0;   ///< 1 - dissimilarity, less the price of bare wood
   Overrides overrides;  ///< of the branches that were refined
+  Seed seed = 0;        ///< of the tree that these overrides are of
   MaskMetrics metrics;
   std::optional<MaskMetrics> full_size_metrics;  ///< at 512 pixels, where branches were refined
+  std::optional<PlantPortrait> portrait;         ///< none of a plant beyond the growth budget
   long evaluations = 0, branch_steps = 0;
   double seconds = 0;
   FitStop stopped_by = FitStop::evaluations;

@@ -131,9 +131,11 @@ FitResult FitRun::finish() {
   return {.values = state_.best.values,
           .fitness = 1 - state_.best.score,
           .overrides = best_overrides(state_),
+          .seed = best_seed(state_),
           .metrics = state_.best_metrics,
           .full_size_metrics =
               state_.full_size ? std::optional<MaskMetrics>(state_.full_size->metrics) : std::nullopt,
+          .portrait = state_.portrait,
           .evaluations = state_.evaluations,
           .branch_steps = state_.branches.steps,
           .seconds = state_.seconds,

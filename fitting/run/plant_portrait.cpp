@@ -51,9 +51,9 @@ PlantPortrait portray(const Plant& plant, const View& front, const Overrides& ov
   const float width = width_m(plant, front.azimuth_deg), depth = width_m(plant, front.azimuth_deg + 90);
   return {.visible_wood = count_visible_parts(plant, camera).wood_share(),
           .depth_over_width = width > 0 ? depth / width : 0,
-          .stems = plant.stems.size(),
-          .leaves = plant.leaves.size(),
-          .override_numbers = count_numbers(overrides)};
+          .stems = static_cast<double>(plant.stems.size()),
+          .leaves = static_cast<double>(plant.leaves.size()),
+          .override_numbers = static_cast<double>(count_numbers(overrides))};
 }
 
 Picture plant_sheet(const Plant& plant, const TargetView& target, const View& front) {

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include <espalier/fitting/run/run_summary.h>
@@ -34,11 +35,15 @@ nlohmann::ordered_json labels_to_json(const PlantLabels& labels) {
 }
 
 nlohmann::ordered_json portrait_to_json(const PlantPortrait& portrait) {
-  return {{"visible_wood", portrait.visible_wood},
-          {"depth_over_width", portrait.depth_over_width},
-          {"stems", portrait.stems},
-          {"leaves", portrait.leaves},
-          {"override_numbers", portrait.override_numbers}};
+  nlohmann::ordered_json json;
+  for (const PlantMeasure& measure : kPlantMeasures) {
+    const double value = portrait.*measure.value;
+    if (measure.counts)
+      json[measure.name] = std::lround(value);
+    else
+      json[measure.name] = value;
+  }
+  return json;
 }
 
 }  // namespace

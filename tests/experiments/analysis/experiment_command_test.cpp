@@ -32,7 +32,7 @@ fs::path small_study() {
       "study.toml",
       "[fits]\ntargets = ['oc_palm', {species = 'palm', seed = 3}]\noptimizers = ['cma_es', 'LN_SBPLX']\n"
       "starts = ['palm']\nseeds = 2\nevaluations = 200\nsize = 32\nmax_stems = 300\n"
-      "max_leaves = 3000\nunseen_seeds = 2\n");
+      "max_leaves = 3000\nunseen_seeds = 2\nsiblings = 2\n");
 }
 
 std::string run_arguments(const fs::path& file, const fs::path& out) {
@@ -116,7 +116,11 @@ TEST(ExperimentCommand, TheTrueParametersAreScoredOnTheSameUnseenSeeds) {
   const CsvTable results = read_csv(out / "results.csv");
   for (std::size_t row = 0; row < results.rows.size(); ++row) {
     EXPECT_FALSE(results.text(row, "unseen_fitness").empty());
-    EXPECT_EQ(results.text(row, "truth_fitness").empty(), results.text(row, "target") != "palm");
+    const bool is_known = results.text(row, "target") == "palm";
+    EXPECT_EQ(results.text(row, "truth_fitness").empty(), !is_known);
+    EXPECT_EQ(results.text(row, "side_iou").empty(), !is_known);
+    EXPECT_EQ(results.text(row, "sibling_side_iou").empty(), !is_known);
+    EXPECT_FALSE(results.text(row, "depth_over_width").empty());
   }
 }
 

@@ -160,6 +160,7 @@ TEST(ReadExperiment, EachListRefusesWhatNoRunCanUse) {
       {"threads", "0"},
       {"threads", "'all'"},
       {"unseen_seeds", "-1"},
+      {"siblings", "-1"},
       {"view", "7"},
       {"view", "'0,91'"},
       {"groups", "{odd = ['oak']}"},

@@ -47,7 +47,7 @@ TEST(PlantPortrait, CountsTheNumbersOfBranches) {
   set_override(overrides.at({0, 1}).set, {Quantity::length, Relation::factor, 2, true});
   set_override(overrides.at({0, 1}).set, {Quantity::seed, Relation::value, 5, true});
   set_override(overrides.at({0, 2}).set, {Quantity::removed, Relation::value, 1, true});
-  EXPECT_EQ(portray(beams(), {}, overrides).override_numbers, 3u);
+  EXPECT_EQ(portray(beams(), {}, overrides).override_numbers, 3);
 }
 
 }  // namespace
