@@ -14,10 +14,10 @@ if(ESPALIER_SANITIZE)
   target_link_options(espalier_options INTERFACE -fsanitize=${ESPALIER_SANITIZE})
 endif()
 
-# The presets of the sanitizers compile each room, and each test program, as one file (CMAKE_UNITY_BUILD): a third
-# of the time. Not part of that are sources with a local name that another file of the room has too, and those
-# that Highway compiles once for each instruction set. Where a sanitizer's build says 'redefinition', give one of the
-# two another name, or name its file here.
+# All presets but debug compile each room, and each test program, as one file (CMAKE_UNITY_BUILD): two fifths of the
+# time. Not part of that are sources with a local name that another file of the room has too, and those that Highway
+# compiles once for each instruction set. Where such a build says 'redefinition', give one of the two another name, or
+# name its file here.
 set(ESPALIER_KEPT_APART
   fitting/record/view_record.cpp
   fitting/starts/start_points.cpp

@@ -41,6 +41,7 @@ struct FitResult {
   MaskMetrics metrics;
   std::optional<MaskMetrics> full_size_metrics;  ///< at 512 pixels, where branches were refined
   std::optional<PlantPortrait> portrait;         ///< none of a plant beyond the growth budget
+  std::vector<Resemblance> resemblances;         ///< to the bundled species, the nearest first
   long evaluations = 0, branch_steps = 0;
   double seconds = 0;
   FitStop stopped_by = FitStop::evaluations;

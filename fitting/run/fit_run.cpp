@@ -116,6 +116,7 @@ void FitRun::portray_best() {
   const View& front = record_.views.front().view;
   state_.portrait = portray(plant, front, best_overrides(state_));
   state_.sheet = plant_sheet(plant, task_.views.front(), front);
+  state_.resemblances = resemblances_to_bundled(*task_.model, state_.best.values);
 }
 
 FitResult FitRun::finish() {
@@ -136,6 +137,7 @@ FitResult FitRun::finish() {
           .full_size_metrics =
               state_.full_size ? std::optional<MaskMetrics>(state_.full_size->metrics) : std::nullopt,
           .portrait = state_.portrait,
+          .resemblances = state_.resemblances,
           .evaluations = state_.evaluations,
           .branch_steps = state_.branches.steps,
           .seconds = state_.seconds,

@@ -46,13 +46,21 @@ std::vector<GrownInto> grown_into(const RunState& state) {
   return pictures;
 }
 
+/// What the tree needs besides its species; nothing is known of it while the run goes on.
+std::string beyond_its_species(const RunState& state) {
+  if (state.resemblances.empty() || !state.portrait) return "";
+  return fmt::format("; {:.2f} standard deviations from {}, and {} numbers of branches",
+                     state.resemblances.front().departure, state.resemblances.front().species,
+                     state.portrait->override_numbers);
+}
+
 std::string best_to_toml(const RunState& state) {
   const std::string stem = state.record.views.front().picture.stem().string();
   return preset_to_toml(
       {stem + "_fit",
-       fmt::format("fitted to {} with {}, seed {}: fitness {:.4f}",
+       fmt::format("fitted to {} with {}, seed {}: fitness {:.4f}{}",
                    state.record.views.front().picture.filename().string(), state.record.optimizer,
-                   state.record.seed, 1 - state.best.score),
+                   state.record.seed, 1 - state.best.score, beyond_its_species(state)),
        state.record.model, state.best.values, best_overrides(state), grown_into(state), best_seed(state)},
       state.task.model->table());
 }

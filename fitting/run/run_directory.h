@@ -13,6 +13,7 @@
 #include <espalier/fitting/run/plant_portrait.h>
 #include <espalier/fitting/search/logged_scorer.h>
 #include <espalier/fitting/search/trace.h>
+#include <espalier/fitting/species_space/resemblance.h>
 #include <espalier/fitting/task/fit_task.h>
 #include <espalier/fitting/task/plant_scorer.h>
 
@@ -45,6 +46,7 @@ struct RunState {
   IdentifiabilityReport identifiability = {};   ///< after it
   std::optional<PlantPortrait> portrait = {};   ///< of the best plant, once the run ends
   std::optional<Picture> sheet = {};            ///< likewise
+  std::vector<Resemblance> resemblances = {};   ///< likewise
 };
 
 /// What the branches of the best tree are overridden by.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +8,8 @@
 namespace espalier {
 
 namespace {
+
+constexpr std::size_t kShownSpecies = 3;
 
 nlohmann::ordered_json archive_to_json(const SolutionArchive& archive) {
   auto rows = nlohmann::ordered_json::array();
@@ -46,6 +49,13 @@ nlohmann::ordered_json portrait_to_json(const PlantPortrait& portrait) {
   return json;
 }
 
+nlohmann::ordered_json resemblances_to_json(const std::vector<Resemblance>& resemblances) {
+  auto rows = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < std::min(kShownSpecies, resemblances.size()); ++i)
+    rows.push_back({{"species", resemblances[i].species}, {"departure", resemblances[i].departure}});
+  return rows;
+}
+
 }  // namespace
 
 std::string run_summary(const RunState& state) {
@@ -64,6 +74,7 @@ std::string run_summary(const RunState& state) {
   }
   summary["labels"] = labels_to_json(state.task.views.front().labels);
   if (state.portrait) summary["plant"] = portrait_to_json(*state.portrait);
+  if (!state.resemblances.empty()) summary["resembles"] = resemblances_to_json(state.resemblances);
   summary["best_at_evaluation"] = state.best.evaluation;
   summary["seconds"] = state.seconds;
   summary["evaluations_per_second"] =

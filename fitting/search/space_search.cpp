@@ -4,6 +4,7 @@
 #include <espalier/core/field_error.h>
 #include <espalier/core/parallel_for.h>
 #include <espalier/fitting/search/space_search.h>
+#include <espalier/fitting/species_space/preset_collection.h>
 
 namespace espalier {
 
@@ -14,11 +15,7 @@ constexpr double kMargin = 0.15;  ///< beyond the species, as a share of their r
 }  // namespace
 
 SpeciesSpace bundled_species_space(const Model& model, int components) {
-  std::vector<Preset> presets;
-  for (const std::string& name : bundled_presets()) {
-    Preset preset = load_preset(name);
-    if (preset.model == model.table().model) presets.push_back(std::move(preset));
-  }
+  const std::vector<Preset> presets = bundled_species(model.table().model);
   if (presets.size() < 2)
     throw_field_error("space", "got {} bundled presets of {}, expected at least 2", presets.size(),
                       model.table().model);

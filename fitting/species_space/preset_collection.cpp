@@ -61,4 +61,10 @@ std::vector<Preset> load_presets(const std::vector<std::string>& names) {
   return presets;
 }
 
+std::vector<Preset> bundled_species(const std::string& model) {
+  std::vector<Preset> presets = load_presets({});
+  std::erase_if(presets, [&](const Preset& preset) { return preset.model != model; });
+  return presets;
+}
+
 }  // namespace espalier

@@ -12,4 +12,7 @@ namespace espalier {
 /// run's preset is called as its directory. Throws InputError for what holds no preset.
 std::vector<Preset> load_presets(const std::vector<std::string>& names);
 
+/// The bundled species of a model; of an L-system none.
+std::vector<Preset> bundled_species(const std::string& model);
+
 }  // namespace espalier

@@ -44,7 +44,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 TARGETS = HERE.parents[1] / "targets"  # where fits run: pictures go by their names
 DIGESTS = ["fitted", "drawn"]
 VARYING_KEYS = {"seconds", "evaluations_per_second", "embree_disagreement_pixels"}
-LATER_KEYS = {"plant", "labels"}  # of summary.json, in no run when these were recorded; nor was tree.png, nor a preset's seed
+LATER_KEYS = {"plant", "labels", "resembles"}  # of summary.json, in no run when these were recorded; nor was tree.png, nor a preset's seed
 LATER_FILES = {"tree.png"}
 HEX_DIGITS = 16
 
@@ -96,6 +96,8 @@ def json_content(path):
 def preset_content(path):
     preset = tomllib.loads(path.read_text())
     preset.pop("seed", None)
+    if "description" in preset:
+        preset["description"] = preset["description"].split(";")[0]  # then: what it needs beyond its species
     return canonical(preset)
 
 
