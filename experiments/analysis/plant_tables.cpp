@@ -14,7 +14,7 @@ namespace {
 
 using Rows = std::vector<std::size_t>;
 
-std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{:.3f}", value); }
+std::string decimals(double value) { return std::isnan(value) ? "" : fmt::format("{:.3f}", value); }
 std::string whole(double value) { return std::isnan(value) ? "" : fmt::format("{:.0f}", value); }
 
 /// The numbers of these rows, as far as they have some.
@@ -31,11 +31,11 @@ std::vector<std::string> plant_row(const CsvTable& results, const Rows& rows) {
   if (wood.empty()) return {};
   const auto [shallowest, deepest] = std::minmax_element(depth.begin(), depth.end());
   return {whole(static_cast<double>(wood.size())),
-          cell(median(wood)),
-          cell(*std::max_element(wood.begin(), wood.end())),
-          cell(*shallowest),
-          cell(median(depth)),
-          cell(*deepest),
+          decimals(median(wood)),
+          decimals(*std::max_element(wood.begin(), wood.end())),
+          decimals(*shallowest),
+          decimals(median(depth)),
+          decimals(*deepest),
           whole(median(column(results, rows, "leaves"))),
           whole(median(column(results, rows, "override_numbers")))};
 }
@@ -74,11 +74,11 @@ std::vector<std::string> side_row(const std::string& target, const CsvTable& res
   double means[std::size(kSideColumns)] = {};
   for (std::size_t i = 0; i < std::size(kSideColumns); ++i) {
     means[i] = spread_of(column(results, rows, kSideColumns[i])).mean;
-    cells.push_back(cell(means[i]));
+    cells.push_back(decimals(means[i]));
   }
-  cells.push_back(cell(means[0] - means[1]));
-  cells.push_back(cell(means[2] - means[3]));
-  cells.push_back(cell(spread_of(side_gains).deviation));
+  cells.push_back(decimals(means[0] - means[1]));
+  cells.push_back(decimals(means[2] - means[3]));
+  cells.push_back(decimals(spread_of(side_gains).deviation));
   return cells;
 }
 

@@ -22,6 +22,7 @@ FitRecord record_of_tree(float azimuth_deg) {
   Mask mask;
   make_embree_renderer()->draw(plant, frame_bounds(bounds(plant), {azimuth_deg, 0}, 256, 256), mask);
   FitRecord record;
+  record.views.resize(1);
   record.views[0].picture = fresh_folder("unseen_side") / "pine.png";
   record.views[0].view.azimuth_deg = azimuth_deg;
   write_mask_png(record.views[0].picture, mask);
