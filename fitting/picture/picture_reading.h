@@ -17,6 +17,7 @@ struct PictureReading {
   double crown_width = 0;      ///< of the whole tree
   double cover = 0;            ///< set share of the filled outline: 1 - porosity
   double hull_cover = 0;       ///< set share of the convex hull
+  double clump_width = 0;      ///< mean width of what is set, once the narrowest gaps are closed
   int trunks = 1;              ///< separate stems at the foot
   bool touches_frame = false;  ///< at the sides or the top: the picture cuts the tree off
 };
