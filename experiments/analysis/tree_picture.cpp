@@ -1,3 +1,4 @@
+#include <espalier/charts/chart_layout.h>
 #include <espalier/experiments/analysis/tree_picture.h>
 #include <espalier/fitting/record/fit_record.h>
 #include <espalier/models/grow_preset.h>
@@ -6,13 +7,19 @@
 namespace espalier {
 
 Picture draw_fitted_tree(const std::filesystem::path& run_directory, int size_px) {
+  constexpr View kSides[] = {{0, 0}, {90, 0}, {45, 15}};
   const std::string file = (run_directory / "best.toml").string();
   Preset preset = load_preset(file);
   // Presets of versions before 0.2 do not name their seed.
   if (!preset.seed) preset.seed = read_record(run_directory / "run.toml").record.seed;
   const Plant plant = grow_preset(preset, file);
-  const View aside{.azimuth_deg = 45, .elevation_deg = 15};
-  return render_shaded(plant, frame_bounds(bounds(plant), aside, size_px, size_px), {.samples_per_px = 16});
+  ChartLayout layout;
+  for (const View& side : kSides) {
+    const Camera camera = frame_bounds(bounds(plant), side, size_px, size_px);
+    const auto left = static_cast<float>(layout.images.size()) * static_cast<float>(size_px);
+    layout.images.push_back({{left, 0}, render_shaded(plant, camera, {.samples_per_px = 16}), {}});
+  }
+  return layout_to_picture(layout, static_cast<int>(std::size(kSides)) * size_px, size_px);
 }
 
 }  // namespace espalier

@@ -159,17 +159,23 @@ def score_sheet(directory, meta):
     if not sheet:
         return ""
     groups = table(directory / "score_groups.csv", "By groups", opened=True)
+    if (directory / "plants.csv").exists():
+        groups += table(directory / "plants.csv", "The plants: wood that shows, depth, leaves, numbers of branches",
+                        opened=True)
     cards = "\n".join(score_card(directory, sheet["columns"], target) for target in sheet["targets"])
     return (f"<h2>Score sheet</h2>\n<p class=\"soft\">Fits beside the picture's outline filled with no tree at all, which "
-            f"they must beat on IoU and on gaps. Pictures show the run of median fitness: target; then fit, overlay "
-            f"(agreement white, missed blue, surplus orange) and the tree from 45° aside.</p>\n{groups}\n{cards}")
+            f"they must beat on IoU and on gaps. Pictures show the run of median fitness: target; then fit and overlay "
+            f"(agreement white, missed blue, surplus orange), below them the plant from the front, from the side and "
+            f"from in between.</p>\n{groups}\n{cards}")
 
 
 def score_card(directory, columns, target):
-    shown = [picture(directory, target.get("picture"), "target")]
+    shown, labels = [picture(directory, target.get("picture"), "target")], ["target"]
     for fit in target["fits"]:
-        shown += [picture(directory, fit.get(kind), kind) for kind in ["fit", "overlay", "tree"]]
-    labels = ["target"] + [fit["label"] if kind == 0 else "" for fit in target["fits"] for kind in range(3)]
+        shown += [picture(directory, fit.get(kind), kind) for kind in ["fit", "overlay"]]
+        labels += [fit["label"], ""]
+    trees = "".join(f"<figure>{picture(directory, fit.get('tree'), 'tree')}<figcaption>{text(fit['label'])}</figcaption>"
+                    f"</figure>" for fit in target["fits"])
     cells = "".join(f"<figure>{image}<figcaption>{text(label)}</figcaption></figure>"
                     for image, label in zip(shown, labels))
     kept = [i for i, name in enumerate(columns) if name not in ("target", "group")]
@@ -178,7 +184,7 @@ def score_card(directory, columns, target):
     rows += [table_row("td", [row[i] for i in kept], right) for row in target["rows"]]
     body = "\n".join(rows)
     return (f"<section class=\"card score\"><h2>{text(target['target'])} <span class=\"soft\">{text(target['group'])}"
-            f"</span></h2>\n<div class=\"row\">{cells}</div>\n<div class=\"scroll\"><table>\n{body}\n</table></div></section>")
+            f"</span></h2>\n<div class=\"row\">{cells}</div>\n<div class=\"row\">{trees}</div>\n<div class=\"scroll\"><table>\n{body}\n</table></div></section>")
 
 
 def thumbnails(directory, meta):
