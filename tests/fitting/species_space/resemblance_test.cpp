@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include <espalier/fitting/species_space/preset_collection.h>
 #include <espalier/fitting/species_space/resemblance.h>
 #include <espalier/models/models.h>
@@ -32,6 +35,17 @@ TEST(Resemblance, EverySpeciesIsItsOwnNearestWhateverItsSize) {
     EXPECT_TRUE(std::is_sorted(found.begin(), found.end(),
                                [](const auto& a, const auto& b) { return a.departure < b.departure; }));
   }
+}
+
+/// What resemblance.h says of them, and docs/species_space.md.
+TEST(Resemblance, TheNextSpeciesIsAboutOneStandardDeviationAway) {
+  std::vector<double> to_the_next;
+  for (const Preset& preset : species())
+    to_the_next.push_back(resemblances(space(), preset.values)[1].departure);
+  std::sort(to_the_next.begin(), to_the_next.end());
+  EXPECT_NEAR(to_the_next.front(), 0.55, 0.25);
+  EXPECT_NEAR(to_the_next[to_the_next.size() / 2], 1, 0.25);
+  EXPECT_NEAR(to_the_next.back(), 1.5, 0.4);
 }
 
 /// One number that all species of this depth have, moved by one standard deviation: 1/√n of those that count.
