@@ -35,6 +35,7 @@ void measure_pair(const Preset& a, const Preset& b, int steps) {
 
 void measure_pairs(const std::vector<std::string>& names, int steps) {
   std::vector<Preset> presets;
+  presets.reserve(names.size());
   for (const std::string& name : names) presets.push_back(load_preset(name));
   fmt::print(
       "a,b,monotone_median,monotone_largest,monotone_ratio,monotone_step,raw_median,raw_largest,raw_ratio,"

@@ -65,6 +65,7 @@ SearchBeginning begin_search(const FitTask& task, Scorer& scorer) {
   const std::vector<StartPoint> starts = make_start_points(*task.model, "auto", {}, task.growth.budget,
                                                            kNominalHeightM, task.plant_seeds.front());
   std::vector<ParameterValues> candidates;
+  candidates.reserve(starts.size());
   for (const StartPoint& start : starts) candidates.push_back(start.values);
   std::vector<double> scores(starts.size());
   scorer.score(candidates, scores);

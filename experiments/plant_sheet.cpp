@@ -4,6 +4,7 @@
 //   build/bin/plant_sheet sheet.png acer apple runs/fir
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,12 @@
 namespace espalier {
 namespace {
 
-constexpr int kTilePx = 200, kTextPx = 20, kGapPx = 6, kSamples = 9;
+constexpr int kTilePx = 200, kLinePx = 16, kGapPx = 6, kSamples = 9;
 constexpr std::size_t kPlantsInARow = 5;
 
 struct DrawnPlant {
   Picture front, side;
-  std::string text;
+  std::string name, measures;
 };
 
 /// Both sides at one scale, that of the larger one.
@@ -35,20 +36,20 @@ DrawnPlant draw_plant(const Preset& preset) {
   const Camera from_side = frame_bounds(box, side, kTilePx, kTilePx);
   const PlantPortrait portrait = portray(plant, front, preset.overrides);
   return {render_shaded(plant, from_front, {.samples_per_px = kSamples}),
-          render_shaded(plant, from_side, {.samples_per_px = kSamples}),
-          fmt::format("{}: wood {:.2f}, depth {:.2f}", preset.name, portrait.visible_wood,
-                      portrait.depth_over_width)};
+          render_shaded(plant, from_side, {.samples_per_px = kSamples}), preset.name,
+          fmt::format("wood {:.2f}, depth {:.2f}", portrait.visible_wood, portrait.depth_over_width)};
 }
 
 Picture sheet_of(const std::vector<DrawnPlant>& plants) {
-  constexpr int kStepX = 2 * kTilePx + kGapPx, kStepY = kTilePx + kTextPx;
+  constexpr int kStepX = 2 * kTilePx + kGapPx, kStepY = kTilePx + 2 * kLinePx;
   ChartLayout layout;
   for (std::size_t i = 0; i < plants.size(); ++i) {
     const auto x = static_cast<float>(i % kPlantsInARow) * kStepX,
                y = static_cast<float>(i / kPlantsInARow) * kStepY;
     layout.images.push_back({{x, y}, plants[i].front, {}});
     layout.images.push_back({{x + kTilePx, y}, plants[i].side, {}});
-    layout.labels.push_back({{x + kTilePx, y + kTilePx + 0.5F * kTextPx}, plants[i].text});
+    layout.labels.push_back({{x + kTilePx, y + kTilePx + 0.5F * kLinePx}, plants[i].name});
+    layout.labels.push_back({{x + kTilePx, y + kTilePx + 1.5F * kLinePx}, plants[i].measures});
   }
   const std::size_t columns = std::min(plants.size(), kPlantsInARow);
   const std::size_t rows = (plants.size() + kPlantsInARow - 1) / kPlantsInARow;

@@ -26,6 +26,7 @@ fs::path find_python() {
 /// The exit code, or -1 where the program could not be started.
 int run_program_file(std::vector<std::string> arguments) {
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   pid_t child = 0;

@@ -65,21 +65,25 @@ Spread spread_of(const std::vector<double>& values) {
   return spread;
 }
 
-constexpr const char* kSideColumns[] = {"front_iou", "sibling_front_iou", "side_iou", "sibling_side_iou"};
+double mean_of(const CsvTable& results, const Rows& rows, const char* name) {
+  return spread_of(column(results, rows, name)).mean;
+}
 
-/// Means of kSideColumns, the gains over the siblings, and how the side's gain varies.
+/// The fits beside the siblings, from both sides, the gains over them, and how the side's gain varies.
 std::vector<std::string> side_row(const std::string& target, const CsvTable& results, const Rows& rows,
                                   const std::vector<double>& side_gains) {
-  std::vector<std::string> cells{target, whole(static_cast<double>(rows.size()))};
-  double means[std::size(kSideColumns)] = {};
-  for (std::size_t i = 0; i < std::size(kSideColumns); ++i) {
-    means[i] = spread_of(column(results, rows, kSideColumns[i])).mean;
-    cells.push_back(decimals(means[i]));
-  }
-  cells.push_back(decimals(means[0] - means[1]));
-  cells.push_back(decimals(means[2] - means[3]));
-  cells.push_back(decimals(spread_of(side_gains).deviation));
-  return cells;
+  const double front = mean_of(results, rows, "front_iou"), side = mean_of(results, rows, "side_iou");
+  const double sibling_front = mean_of(results, rows, "sibling_front_iou"),
+               sibling_side = mean_of(results, rows, "sibling_side_iou");
+  return {target,
+          whole(static_cast<double>(rows.size())),
+          decimals(front),
+          decimals(sibling_front),
+          decimals(side),
+          decimals(sibling_side),
+          decimals(front - sibling_front),
+          decimals(side - sibling_side),
+          decimals(spread_of(side_gains).deviation)};
 }
 
 double side_gain(const CsvTable& results, std::size_t row) {

@@ -98,10 +98,8 @@ void append(Row& row, const std::string& prefix, const UnseenScore& score) {
 }
 
 void append(Row& row, const SideScores& scores) {
-  row.emplace_back("front_iou", table_number(scores.front_iou));
-  row.emplace_back("side_iou", table_number(scores.side_iou));
-  row.emplace_back("sibling_front_iou", table_number(scores.sibling_front_iou));
-  row.emplace_back("sibling_side_iou", table_number(scores.sibling_side_iou));
+  for (const SideColumn& column : kSideColumns)
+    row.emplace_back(column.name, table_number(scores.*column.value));
 }
 
 Measured measure(const FitResult& result, const FitCell& cell) {
@@ -221,9 +219,9 @@ Plan plan_fits(const FitsDeclaration& fits, const fs::path& directory) {
   for (const Metric& metric : kMetrics) plan.result_columns.emplace_back(metric.name);
   for (const char* column : {"evaluations", "stopped_by"}) plan.result_columns.emplace_back(column);
   for (const PlantMeasure& measure : kPlantMeasures) plan.result_columns.emplace_back(measure.name);
-  for (const char* column : {"unseen_fitness", "unseen_iou", "truth_fitness", "truth_iou", "front_iou",
-                             "side_iou", "sibling_front_iou", "sibling_side_iou"})
+  for (const char* column : {"unseen_fitness", "unseen_iou", "truth_fitness", "truth_iou"})
     plan.result_columns.emplace_back(column);
+  for (const SideColumn& column : kSideColumns) plan.result_columns.emplace_back(column.name);
   plan.time_columns = {"seconds", "evaluations"};
   std::vector<ReadyTarget> targets;
   for (const TargetDeclaration& target : fits.targets) targets.push_back(ready_target(target, directory));

@@ -141,8 +141,10 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
   outcome.plan = plan_of(experiment, directory);
   outcome.rows = begin_rows(outcome.plan, directory);
   Runner runner(directory, options, outcome);
+  const int jobs = job_count(outcome.plan, options);
   std::vector<std::jthread> threads;
-  for (int i = 0; i < job_count(outcome.plan, options); ++i) threads.emplace_back([&] { runner.work(); });
+  threads.reserve(static_cast<std::size_t>(jobs));
+  for (int i = 0; i < jobs; ++i) threads.emplace_back([&] { runner.work(); });
   threads.clear();
   runner.check();
   write_tables(directory, outcome.plan, outcome.rows);

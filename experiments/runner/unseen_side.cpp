@@ -1,10 +1,8 @@
-#include <espalier/core/error.h>
 #include <espalier/experiments/runner/unseen_side.h>
 #include <espalier/experiments/runner/unseen_trees.h>
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/image/reading/frame.h>
-#include <espalier/models/models.h>
-#include <espalier/models/preset.h>
+#include <espalier/models/grow_preset.h>
 
 namespace espalier {
 
@@ -22,11 +20,7 @@ FitTask two_sided_task(const FitRecord& record, const KnownTree& tree) {
       frame_base({0, 0, 0}, {seen.azimuth_deg + 90, seen.elevation_deg}, front.metres_per_px,
                  front.camera.width_px, front.camera.height_px, base_row_px(front.camera.height_px));
   task.views = {front, side};
-  const Preset preset = load_preset(tree.species);
-  Plant plant;
-  if (!model_by_name(preset.model).generate(preset.values, tree.seed, {}, plant).grown)
-    throw_input_error("target '{}': got a tree beyond the growth budget, expected a smaller one",
-                      tree.species);
+  const Plant plant = grow_preset(load_preset(tree.species), tree.species, {.seed = tree.seed});
   const auto renderer = task.make_renderer();
   for (TargetView& view : task.views) {
     Mask mask(view.camera.width_px, view.camera.height_px);

@@ -18,6 +18,19 @@ struct SideScores {
   double sibling_front_iou = 0, sibling_side_iou = 0;  ///< means over the siblings
 };
 
+/// Columns of the results.
+struct SideColumn {
+  const char* name;
+  double SideScores::*value;
+};
+
+inline constexpr SideColumn kSideColumns[] = {
+    {"front_iou", &SideScores::front_iou},
+    {"side_iou", &SideScores::side_iou},
+    {"sibling_front_iou", &SideScores::sibling_front_iou},
+    {"sibling_side_iou", &SideScores::sibling_side_iou},
+};
+
 /// From where the record's first picture looks, and a quarter turn around the tree from there. Throws
 /// InputError where the tree is beyond the growth budget.
 SideScores score_sides(const FitRecord& record, const FitResult& result, const KnownTree& tree, int siblings);

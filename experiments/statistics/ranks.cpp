@@ -151,6 +151,7 @@ std::vector<std::string> rank_groups(std::span<const double> mean_ranks, double 
   const auto order =
       sorted_indices(mean_ranks.size(), [&](auto a, auto b) { return mean_ranks[a] < mean_ranks[b]; });
   std::vector<double> sorted_ranks;
+  sorted_ranks.reserve(order.size());
   for (const std::size_t i : order) sorted_ranks.push_back(mean_ranks[i]);
   const std::vector<Group> groups = longest_groups(sorted_ranks, critical_difference);
   std::vector<std::string> letters(mean_ranks.size());

@@ -174,6 +174,7 @@ OptionValue assignments_of_words(const FitOption& option, const std::vector<std:
 
 OptionValue views_of_words(const std::vector<std::string>& words) {
   std::vector<ViewRecord> views;
+  views.reserve(words.size());
   for (const std::string& word : words) views.push_back(parse_view(word));
   return views;
 }
@@ -254,6 +255,7 @@ OptionValue value_of_node(const FitOption& option, const toml::node& node, const
 
 std::string joined(const std::map<std::string, double>& values) {
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   for (const auto& [name, value] : values) texts.push_back(fmt::format("{}={}", name, value));
   return fmt::format("{}", fmt::join(texts, ","));
 }

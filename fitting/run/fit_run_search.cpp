@@ -46,6 +46,7 @@ void FitRun::warn_over_budget(const std::string& start, double factor) const {
 
 std::vector<double> FitRun::score_starts(const std::vector<StartPoint>& starts) {
   std::vector<ParameterValues> candidates;
+  candidates.reserve(starts.size());
   for (const StartPoint& start : starts) candidates.push_back(start.values);
   std::vector<double> scores(candidates.size(), kNotEvaluated);
   for (std::size_t first = 0; first < scores.size(); first += kStartBatch) {

@@ -8,19 +8,9 @@ namespace espalier {
 
 namespace {
 
-/// A length in metres becomes one of a tree of this scale; without a scale values stay.
-ParameterValues at_scale(const ParameterTable& table, ParameterValues values, double scale) {
-  const auto row = table.find(Role::tree_scale);
-  if (!row || !(values[*row] > 0)) return values;
-  const double factor = scale / values[*row];
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (table.rows[i].unit == "m") values[i] *= factor;
-  return values;
-}
-
 double scale_of(const ParameterTable& table, const ParameterValues& values) {
   const auto row = table.find(Role::tree_scale);
-  return row ? values[*row] : 1;
+  return row && values[*row] > 0 ? values[*row] : 1;
 }
 
 double departure_of(const SpeciesSpace& space, const EncodedValues& plant, const EncodedValues& species) {
@@ -40,7 +30,8 @@ std::vector<Resemblance> resemblances(const SpeciesSpace& space, const Parameter
   const ParameterTable& table = space.model->table();
   std::vector<Resemblance> found;
   for (const SpeciesPoint& species : space.species) {
-    const ParameterValues plant = at_scale(table, values, scale_of(table, species.values));
+    ParameterValues plant = values;
+    scale_plant(table, scale_of(table, species.values) / scale_of(table, values), plant);
     found.push_back({species.name, departure_of(space, space.encoding->encode(plant),
                                                 space.encoding->encode(species.values))});
   }

@@ -61,12 +61,6 @@ std::vector<StartPoint> presets_as_written(const ParameterTable& table, const st
   return points;
 }
 
-void scale_plant(const ParameterTable& table, double factor, ParameterValues& values) {
-  for (std::size_t i = 0; i < table.rows.size(); ++i)
-    if (table.rows[i].unit == "m")
-      values[i] = std::clamp(values[i] * factor, table.rows[i].lower, table.rows[i].upper);
-}
-
 void prepare_start(const Model& model, const GrowthBudget& budget, double height_m, Seed plant_seed,
                    ParameterValues& values) {
   set_role(model.table(), {Role::tree_scale_variation}, 0, values);

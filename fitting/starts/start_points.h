@@ -18,9 +18,6 @@ struct StartPoint {
   Overrides overrides = {};  ///< of a preset as it is written
 };
 
-/// Multiplies all values in metres by `factor` (clamped to what is valid): a similar plant.
-void scale_plant(const ParameterTable& table, double factor, ParameterValues& values);
-
 /// Makes a candidate of any plant: its size does not vary, counts may be relaxed, it is thinned until this
 /// seed's tree grows within the budget, and that tree is `height_m` tall.
 void prepare_start(const Model& model, const GrowthBudget& budget, double height_m, Seed plant_seed,

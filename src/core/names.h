@@ -43,6 +43,7 @@ std::optional<Enum> value_named(std::string_view name) {
 template <typename Enum>
 std::vector<std::string> names_of() {
   std::vector<std::string> names;
+  names.reserve(kNames<Enum>.size());
   for (const Name<Enum>& row : kNames<Enum>) names.emplace_back(row.name);
   return names;
 }

@@ -72,6 +72,12 @@ bool set_role(const ParameterTable& table, RoleOfLevel role, double value, Param
   return row.has_value();
 }
 
+void scale_plant(const ParameterTable& table, double factor, ParameterValues& values) {
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    if (table.rows[i].unit == "m")
+      values[i] = std::clamp(values[i] * factor, table.rows[i].lower, table.rows[i].upper);
+}
+
 double in_own_units(const ParameterTable& table, double length_m, const ParameterValues& values) {
   const auto unit = table.find(Role::length_unit);
   return unit ? length_m / values[*unit] : length_m;

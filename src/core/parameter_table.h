@@ -74,6 +74,9 @@ struct ParameterTable {
 /// none.
 bool set_role(const ParameterTable& table, RoleOfLevel role, double value, ParameterValues& values);
 
+/// Multiplies all values in metres by `factor` (clamped to what is valid): a similar plant.
+void scale_plant(const ParameterTable& table, double factor, ParameterValues& values);
+
 /// A length in the units of a plant's lengths: metres, unless a row says how many make a unit of the model's.
 double in_own_units(const ParameterTable& table, double length_m, const ParameterValues& values);
 

@@ -155,10 +155,11 @@ void print_result(const FitResult& result, const FitRecord& record, const fs::pa
   if (result.branch_steps > 0)
     fmt::print("{} branches refined in {} steps\n", result.overrides.nodes.size(), result.branch_steps);
   if (result.portrait && result.resemblances.size() > 1)
-    fmt::print("resembles {} ({:.2f} standard deviations away; next {}, {:.2f}); {:.0f} % of it shows wood\n",
-               result.resemblances[0].species, result.resemblances[0].departure,
-               result.resemblances[1].species, result.resemblances[1].departure,
-               100 * result.portrait->visible_wood);
+    fmt::print(
+        "resembles {} ({:.2f} standard deviations away; next {}, {:.2f}); {:.0f} % of the plant seen is "
+        "wood\n",
+        result.resemblances[0].species, result.resemblances[0].departure, result.resemblances[1].species,
+        result.resemblances[1].departure, 100 * result.portrait->visible_wood);
   if (!result.identifiability.empty()) fmt::print("{}\n", result.identifiability);
   fmt::print("files: {} (best.toml, best.png, overlay.png, convergence.png, summary.json)\n",
              directory.string());

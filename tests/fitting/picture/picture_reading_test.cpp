@@ -92,8 +92,7 @@ TreeKind kind_of_species(const std::string& name, Seed seed, bool in_leaf) {
 }
 
 /// Of the species without fronds, with seeds that no limit was chosen by. Few are read wrongly: the twigs of
-/// the sphere tree, the willow and the black oak are as dense as leaves, the cherry and the acer have few
-/// leaves.
+/// the sphere tree and of the willow are as dense as leaves; acer, larch and cherry are open in leaf.
 TEST(PictureReading, SpeciesInLeafAndBareAreToldApart) {
   std::string wrong;
   int trees = 0, mistakes = 0;
