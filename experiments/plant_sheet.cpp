@@ -44,8 +44,8 @@ Picture sheet_of(const std::vector<DrawnPlant>& plants) {
   constexpr int kStepX = 2 * kTilePx + kGapPx, kStepY = kTilePx + 2 * kLinePx;
   ChartLayout layout;
   for (std::size_t i = 0; i < plants.size(); ++i) {
-    const auto x = static_cast<float>(i % kPlantsInARow) * kStepX,
-               y = static_cast<float>(i / kPlantsInARow) * kStepY;
+    const std::size_t row = i / kPlantsInARow, column = i % kPlantsInARow;
+    const auto x = static_cast<float>(column) * kStepX, y = static_cast<float>(row) * kStepY;
     layout.images.push_back({{x, y}, plants[i].front, {}});
     layout.images.push_back({{x + kTilePx, y}, plants[i].side, {}});
     layout.labels.push_back({{x + kTilePx, y + kTilePx + 0.5F * kLinePx}, plants[i].name});

@@ -139,6 +139,7 @@ CsvTable side_table(const CsvTable& results) {
   for (const std::string& target : targets)
     table.rows.push_back(side_row(target, results, by_target[target], gains(by_target[target])));
   std::vector<double> seeds;
+  seeds.reserve(by_seed.size());
   for (const auto& [seed, rows] : by_seed) seeds.push_back(spread_of(gains(rows)).mean);
   if (!all.empty()) table.rows.push_back(side_row("all", results, all, seeds));
   return table;
