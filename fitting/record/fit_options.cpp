@@ -314,6 +314,15 @@ std::vector<FitOption> options_of_the_plant() {
                "as a leaf)",
        .since = "0.2",
        .before = 0.0},
+      {.field = "any_leaf_size",
+       .key = "search.any_leaf_size",
+       .option = "any-leaf-size",
+       .member = [](FitRecord& record) -> bool& { return record.any_leaf_size; },
+       .help =
+           "of leafy trees: leaves may be larger than those of the bundled species are (default: at most 3 % "
+           "of the tree's height long, and as wide as long)",
+       .since = "0.2",
+       .before = true},
       {.field = "freedom",
        .key = "search.freedom",
        .option = "freedom",

@@ -5,6 +5,7 @@
 #include <espalier/fitting/run/fit_run.h>
 #include <espalier/fitting/search/fit_objective.h>
 #include <espalier/fitting/starts/fit_plan.h>
+#include <espalier/fitting/task/growth_memory.h>
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/models/models.h>
 
@@ -72,6 +73,7 @@ const Optimizer& optimizer_of(const FitRecord& record, const FitExecution& optio
 FitResult fit(const FitRecord& given, const fs::path& directory, const FitExecution& options) {
   options.resume ? check_run_directory(directory) : check_new_directory(directory);
   check_given(given, options);
+  check_growth_memory(given.growth, threads_of(options), machine_memory_bytes());
   FitRecord record = record_of(given, options);
   FitTask task = make_task(record, options.model);
   task.make_renderer = options.make_renderer;

@@ -29,10 +29,14 @@ std::optional<BranchRounds> reached_rounds(const FitRecord& record, const fs::pa
   return reached;
 }
 
+int threads_of(const FitExecution& options) {
+  return options.threads > 0 ? options.threads : omp_get_num_procs();
+}
+
 FitRun::FitRun(const FitRecord& record, const FitTask& task, const FitPlan& plan, const fs::path& directory,
                const FitExecution& options)
     : record_(record),
-      threads_(options.threads > 0 ? options.threads : omp_get_num_procs()),
+      threads_(threads_of(options)),
       task_(task),
       plan_(plan),
       sized_tasks_(record, task),

@@ -29,6 +29,9 @@ std::optional<BranchRounds> reached_rounds(const FitRecord& record, const std::f
 /// The one that the caller brought along, or the record's by name.
 const Optimizer& optimizer_of(const FitRecord& record, const FitExecution& options);
 
+/// At least 1: as many as asked for, or one for each processor.
+int threads_of(const FitExecution& options);
+
 /// One run: its state, its clock, and when it stops.
 class FitRun : public Observer {
  public:

@@ -31,10 +31,13 @@ nlohmann::ordered_json identifiability_to_json(const IdentifiabilityReport& repo
   return json;
 }
 
-/// What the colours of the first picture say.
-nlohmann::ordered_json labels_to_json(const PlantLabels& labels) {
-  if (labels.how.empty()) return "not looked for";
-  return {{"leaf", labels.leaf_share}, {"wood", labels.wood_share}, {"how", labels.how}};
+/// What the colours of the first picture say, and what is expected where they say nothing.
+nlohmann::ordered_json labels_to_json(const PlantLabels& labels, KindChoice kind) {
+  const char* in_doubt = kind == KindChoice::leafy ? "leaves in the crown, as a leafy tree has them"
+                                                 : "wood or leaves, as the model grows them";
+  if (labels.how.empty()) return {{"how", "not looked for"}, {"in_doubt", in_doubt}};
+  return {
+      {"leaf", labels.leaf_share}, {"wood", labels.wood_share}, {"how", labels.how}, {"in_doubt", in_doubt}};
 }
 
 nlohmann::ordered_json portrait_to_json(const PlantPortrait& portrait) {
@@ -72,7 +75,7 @@ std::string run_summary(const RunState& state) {
     summary["full_size"] = state.full_size->metrics;
     summary["full_size"]["size_px"] = state.full_size->best.front().width_px();
   }
-  summary["labels"] = labels_to_json(state.task.views.front().labels);
+  summary["labels"] = labels_to_json(state.task.views.front().labels, state.kind);
   if (state.portrait) summary["plant"] = portrait_to_json(*state.portrait);
   if (!state.resemblances.empty()) summary["resembles"] = resemblances_to_json(state.resemblances);
   summary["best_at_evaluation"] = state.best.evaluation;

@@ -80,7 +80,8 @@ class Planner {
     if (plan_.kind == KindChoice::leafless) fix(Role::leaf_count, 0);
     if (!is_read()) return;
     if (record_.kind == KindChoice::automatic && reading_.trunks == 1) fix(Role::trunk_count, 1);
-    plan_.choice.ranges = measured_ranges(table_, reading_, stated_kind(plan_.kind).value(), height_m_);
+    plan_.choice.ranges = measured_ranges(table_, reading_, stated_kind(plan_.kind).value(), height_m_,
+                                          record_.any_leaf_size ? LeafSizes::any : LeafSizes::of_species);
     if (!trunk_) return;
     for (const auto& [name, value] : palm_parameters(table_, *trunk_, task_.views.front().metres_per_px))
       fix(name, value);

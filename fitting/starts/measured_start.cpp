@@ -78,10 +78,18 @@ void limit_fronds(double height_m, Ranges& ranges) {
   ranges.set({Role::leaf_count}, {60, 300});
 }
 
-void limit_crown(const PictureReading& reading, double height_m, Ranges& ranges) {
-  constexpr double kLongestLeaf = 0.035;  // of the height: longer ones fill crowns as blobs
-  ranges.set_length(Role::leaf_length, {0.003 * height_m, kLongestLeaf * height_m});
+/// Lengths are shares of the height; of the species, the longest have 3 %, and none is wider than its
+/// outline.
+void limit_leaves(LeafSizes sizes, double height_m, Ranges& ranges) {
+  constexpr double kShortest = 0.003, kLongestOfSpecies = 0.03, kLongest = 0.035;
+  const bool of_species = sizes == LeafSizes::of_species;
+  ranges.set_length(Role::leaf_length,
+                    {kShortest * height_m, (of_species ? kLongestOfSpecies : kLongest) * height_m});
+  if (of_species) ranges.set({Role::leaf_width}, {0.05, 1});
   ranges.set({Role::leaf_count}, {8, 120});
+}
+
+void limit_crown(const PictureReading& reading, Ranges& ranges) {
   const double base = lowest_base(reading);
   ranges.set({Role::crown_base}, {base, std::max(0.6, base + 0.2)});
   ranges.set({Role::branch_length, 1}, {0.05, 0.9});
@@ -102,12 +110,15 @@ double grown_width_m(const Model& model, const GrowthBudget& budget, Seed seed,
 }  // namespace
 
 std::map<std::string, SearchRange> measured_ranges(const ParameterTable& table, const PictureReading& reading,
-                                                   TreeKind kind, double height_m) {
+                                                   TreeKind kind, double height_m, LeafSizes leaf_sizes) {
   Ranges ranges(table);
   limit_wood(reading, kind, height_m, ranges);
   ranges.set({Role::blossom_share}, {0, 0});  // a silhouette does not show them
   if (kind == TreeKind::palm) limit_fronds(height_m, ranges);
-  if (kind == TreeKind::leafy) limit_crown(reading, height_m, ranges);
+  if (kind == TreeKind::leafy) {
+    limit_leaves(leaf_sizes, height_m, ranges);
+    limit_crown(reading, ranges);
+  }
   return ranges.by_name();
 }
 

@@ -12,10 +12,15 @@
 
 namespace espalier {
 
+/// How large leaves of leafy trees may be: as those of the bundled species are, or larger ones, which fill
+/// crowns as blobs.
+enum class LeafSizes { of_species, any };
+
 /// Ranges by full names of parameters of `table`, for a tree `height_m` tall. Parameters whose valid values
 /// lie outside of them have none, nor have lengths in units of the model's own, which may change.
 std::map<std::string, SearchRange> measured_ranges(const ParameterTable& table, const PictureReading& reading,
-                                                   TreeKind kind, double height_m);
+                                                   TreeKind kind, double height_m,
+                                                   LeafSizes leaf_sizes = LeafSizes::of_species);
 
 /// Gives a preset, which is `height_m` tall, the picture's trunk, height of the crown and width of the crown,
 /// as far as the preset's form lets it.

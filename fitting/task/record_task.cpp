@@ -50,6 +50,18 @@ void read_views(FitRecord& record, FitTask& task) {
   record.target_hash = hash_text;
 }
 
+std::string look_of(TreeKind kind) { return kind == TreeKind::palm ? "like a palm" : name_of(kind); }
+
+/// The kind that the caller states holds, also where the picture looks like another.
+void warn_of_kind(const FitRecord& record, FitTask& task) {
+  const std::optional<TreeKind> stated = stated_kind(record.kind);
+  const TreeKind seen = task.views.front().reading.kind;
+  if (stated && *stated != seen)
+    task.warnings.push_back(fmt::format("{}: its tree looks {}, and is fitted as {}, as told",
+                                        record.views.front().picture.string(), look_of(seen),
+                                        name_of(*stated)));
+}
+
 /// Keeps the tree inside of the targets' outlines, with room beside their thin parts; where these leave no
 /// room for its trunk, it grows without them.
 void grow_into_pictures(const FitRecord& record, FitTask& task) {
@@ -81,6 +93,7 @@ FitTask make_task(FitRecord& record, const Model* model) {
   for (int i = 0; i < record.fit_seeds; ++i) task.plant_seeds.push_back(record.seed + static_cast<Seed>(i));
   task.bare_wood_price = record.bare_wood_price;
   read_views(record, task);
+  warn_of_kind(record, task);
   if (record.train_to_target && !task.model->can_train())
     throw_field_error("train_to_target",
                       "got model '{}', which cannot grow into a picture, expected weber_penn", record.model);

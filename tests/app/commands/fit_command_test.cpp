@@ -121,6 +121,7 @@ TEST(FitCommand, RefusesBadOptionsInOneLine) {
   expect_error(kPalm + out + " --views nothing.png:90", "AZIMUTH");
   expect_error(kPalm + out + " --fit-seeds 0", "--fit-seeds");
   expect_error(kPalm + out + " --target-fitness 7", "--target-fitness");
+  expect_error(kPalm + out + " --max-stems 1e7 --max-leaves 1e7 --threads 1024", "GB of memory");
   for (const char* value : {"nan", "inf", "1e308", "-inf", "1e999", "", "twelve", "99999"})
     expect_error(kPalm + out + " --fix g_scale=" + value, "g_scale");
   EXPECT_FALSE(fs::exists(fs::path(out.substr(7)))) << "nothing is left behind";

@@ -14,7 +14,9 @@ namespace espalier {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 struct Block {
   int left, top, right, bottom;
@@ -87,6 +89,54 @@ TEST(BadPicture, OfSeveralTreesTheLargestIsFitted) {
   const FitTask task = make_task(all);
   EXPECT_THAT(task.warnings.at(0), HasSubstr("fitted as one"));
   EXPECT_NE(all.target_hash, alone.target_hash);
+}
+
+TEST(BadPicture, AKindThatItDoesNotShowIsFittedWithAWarning) {
+  FitRecord record = record_of(fs::path(ESPALIER_SOURCE_DIR) / "targets" / "tr_crookedtree4.png");
+  record.start = "auto";
+  record.kind = KindChoice::automatic;
+  const Fitted as_seen = fitted("bare", record);
+  EXPECT_THAT(as_seen.warnings, Not(Contains(HasSubstr("as told"))));
+  EXPECT_EQ(as_seen.summary["kind"], "leafless");
+  record.kind = KindChoice::leafy;
+  const Fitted as_told = fitted("bare_leafy", record);
+  EXPECT_THAT(as_told.warnings,
+              Contains(HasSubstr("its tree looks leafless, and is fitted as leafy, as told")));
+  EXPECT_EQ(as_told.summary["kind"], "leafy");
+  EXPECT_THAT(as_told.summary["labels"]["in_doubt"], HasSubstr("leaves in the crown"));
+}
+
+/// Crown and trunk of these colours on white.
+fs::path coloured_picture(const std::string& name, Rgb crown, Rgb trunk) {
+  Picture picture(128, 128, {255, 255, 255});
+  const auto paint = [&](const Block& block, Rgb color) {
+    for (int y = block.top; y < block.bottom; ++y)
+      for (int x = block.left; x < block.right; ++x) picture.at(x, y) = color;
+  };
+  paint(kCrown, crown);
+  paint(kTrunk, trunk);
+  const fs::path path = fresh_folder("picture_" + name) / (name + ".png");
+  write_png(path, picture);
+  return path;
+}
+
+TEST(BadPicture, WhereColoursSayNothingTheSummarySaysWhatIsExpectedInstead) {
+  const std::pair<const char*, Rgb> cases[] = {
+      {"brown", {90, 64, 40}}, {"grey", {128, 128, 128}}, {"pale", {205, 205, 205}}};
+  for (const auto& [name, color] : cases) {
+    FitRecord record = record_of(coloured_picture(name, color, color));
+    record.kind = KindChoice::automatic;
+    record.start = "apple";
+    const nlohmann::json summary = fitted(name, record).summary;
+    EXPECT_EQ(summary["kind"], "leafy") << name;
+    EXPECT_EQ(summary["labels"]["how"], "the colours do not tell leaves from wood") << name;
+    EXPECT_THAT(summary["labels"]["in_doubt"], HasSubstr("leaves in the crown")) << name;
+  }
+}
+
+TEST(BadPicture, WhiteOnWhiteIsRefused) {
+  constexpr Rgb kWhite{255, 255, 255};
+  EXPECT_THROW(fitted("white", record_of(coloured_picture("white", kWhite, kWhite))), InputError);
 }
 
 TEST(BadPicture, WithoutRoomForATrunkTheTreeIsNotTrained) {

@@ -81,6 +81,21 @@ TEST(MeasuredStart, AThickTrunkHasThinBranches) {
   EXPECT_LT(of_thick.at("radius_mod[1]").upper, of_thin.at("radius_mod[1]").upper);
 }
 
+TEST(MeasuredStart, LeavesAreAsLargeAsThoseOfSpecies) {
+  const ParameterTable& table = model_by_name("weber_penn").table();
+  const auto of_species = ranges_of({});
+  for (const std::string& name : bundled_presets()) {
+    if (name == "palm" || name == "fan_palm") continue;
+    const ParameterValues values = load_preset(name).values;
+    const auto value = [&](const char* parameter) { return values[table.find(parameter).value()]; };
+    EXPECT_LE(value("leaf_scale") / value("g_scale"), of_species.at("leaf_scale").upper / 10 + 1e-12) << name;
+    EXPECT_LE(value("leaf_scale_x"), of_species.at("leaf_scale_x").upper) << name;
+  }
+  const auto any = measured_ranges(table, {}, TreeKind::leafy, 10, LeafSizes::any);
+  EXPECT_GT(any.at("leaf_scale").upper, of_species.at("leaf_scale").upper);
+  EXPECT_FALSE(any.contains("leaf_scale_x"));
+}
+
 TEST(MeasuredStart, WhatIsAsWideAsTheCrownIsNoTrunk) {
   const PictureReading crown{.trunk_width = 0.5, .crown_base = 1, .crown_width = 0.6};
   EXPECT_LE(ranges_of(crown).at("ratio").upper, 0.03);
