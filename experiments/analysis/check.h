@@ -1,10 +1,11 @@
 // Compares what an experiment measured with what is expected of it: NAME.expected.toml beside its file.
 //   [[expect]]
-//   table = "results.csv"                    # or a table of the report, "growth_fit.csv"; results.csv if
-//   missing where = { optimizer = "CMA-ES" }         # rows whose columns read so; all rows if missing column
-//   = "pixel_accuracy" statistic = "min"                        # of these rows: min, median, mean, max,
-//   count at_least = 0.97                          # at_least, at_most, or value with tolerance source =
-//   "dissertation, §4.4.2"          # what says so; not compared
+//   table = "results.csv"               # or one of the report, "growth_fit.csv"; results.csv if missing
+//   where = { optimizer = "CMA-ES" }    # rows whose columns read so; all rows if missing
+//   column = "pixel_accuracy"
+//   statistic = "min"                   # of these rows: min, median, mean, max, count
+//   at_least = 0.97                     # at_least, at_most, or value with tolerance
+//   source = "dissertation, §4.4.2"     # what says so; not compared
 #pragma once
 #include <filesystem>
 #include <map>

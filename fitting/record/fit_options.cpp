@@ -314,6 +314,17 @@ std::vector<FitOption> options_of_the_plant() {
                "as a leaf)",
        .since = "0.2",
        .before = 0.0},
+      {.field = "depth_price",
+       .key = "search.depth_price",
+       .option = "depth-price",
+       .member = [](FitRecord& record) -> double& { return record.depth_price; },
+       .lower = 0,
+       .upper = 100,
+       .help = "of leafy trees in one view: what a plant costs, in fitness, that is e times flatter or "
+               "deeper than "
+               "species are (0: nothing)",
+       .since = "0.2",
+       .before = 0.0},
       {.field = "any_leaf_size",
        .key = "search.any_leaf_size",
        .option = "any-leaf-size",

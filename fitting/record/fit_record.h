@@ -62,9 +62,11 @@ struct FitRecord {
   bool train_to_target = false;       ///< keep the tree inside of the pictures' outlines
   std::optional<double> height_m;
   double bare_wood_price =
-      0.2;                     ///< of leafy trees: added to a dissimilarity where only wood covers the crown
-  bool any_leaf_size = false;  ///< of leafy trees: leaves may be larger than those of species are
-  double freedom = kFreedomOfKind;              ///< of single branches
+      0.2;  ///< of leafy trees: added to a dissimilarity where only wood covers the crown
+  double depth_price =
+      0.2;  ///< the same for plants flatter or deeper than species, of leafy trees in one view
+  bool any_leaf_size = false;       ///< of leafy trees: leaves may be larger than those of species are
+  double freedom = kFreedomOfKind;  ///< of single branches
   std::map<std::string, std::string> versions;  ///< of the program and its libraries
 };
 

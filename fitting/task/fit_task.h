@@ -47,6 +47,7 @@ struct FitTask {
   Overrides overrides;                         ///< of every candidate of the search
   std::shared_ptr<const ChangeGraph> changes;  ///< the same, which growth.changes points to
   double bare_wood_price = 0;  ///< in dissimilarity, of leaves and wood that all are in each other's places
+  double depth_price = 0;      ///< in dissimilarity, of a plant e times deeper or flatter than species are
   Freedom freedom;             ///< of single branches
   RendererFactory make_renderer = make_scanline_renderer;
   std::vector<std::string> warnings;  ///< what its pictures leave to be desired, a line each

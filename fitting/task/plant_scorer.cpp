@@ -5,6 +5,7 @@
 #include <exception>
 
 #include <espalier/core/error.h>
+#include <espalier/fitting/task/plant_depth.h>
 #include <espalier/fitting/task/plant_scorer.h>
 
 namespace espalier {
@@ -44,7 +45,10 @@ double PlantScorer::score_one(const ParameterValues& values, Seed seed, Worker& 
   const GrowthResult growth = grow_and_draw(*task_.model, values, seed, task_.growth, *worker.renderer,
                                             worker.drawn_views, worker.plant);
   if (!growth.grown) return over_budget_penalty(growth.over_budget_factor);
-  return score_of_masks(task_, worker.masks, worker.leaves);
+  const double score = score_of_masks(task_, worker.masks, worker.leaves);
+  if (task_.depth_price == 0) return score;
+  const double depth = depth_over_width(worker.plant, task_.views.front().camera);
+  return std::min(1.0, score + task_.depth_price * depth_excess(depth));
 }
 
 /// True where a seed of the candidate failed. Throws what is not to be forgiven.

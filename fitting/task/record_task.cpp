@@ -62,6 +62,11 @@ void warn_of_kind(const FitRecord& record, FitTask& task) {
                                         name_of(*stated)));
 }
 
+/// Of a leafy tree that no second view shows from another side.
+bool expects_depth(const FitTask& task) {
+  return task.views.size() == 1 && area_px(task.views.front().crown) > 0;
+}
+
 /// Keeps the tree inside of the targets' outlines, with room beside their thin parts; where these leave no
 /// room for its trunk, it grows without them.
 void grow_into_pictures(const FitRecord& record, FitTask& task) {
@@ -93,6 +98,7 @@ FitTask make_task(FitRecord& record, const Model* model) {
   for (int i = 0; i < record.fit_seeds; ++i) task.plant_seeds.push_back(record.seed + static_cast<Seed>(i));
   task.bare_wood_price = record.bare_wood_price;
   read_views(record, task);
+  if (expects_depth(task)) task.depth_price = record.depth_price;
   warn_of_kind(record, task);
   if (record.train_to_target && !task.model->can_train())
     throw_field_error("train_to_target",

@@ -234,6 +234,7 @@ species = ""
 space = "species:2"  # searched first
 space_evaluations = 300
 bare_wood_price = 0.2
+depth_price = 0.2
 any_leaf_size = false
 freedom = -1.0  # of single branches; -1: as the kind of tree needs
 free = ["g_scale", "curve*"]  # none: the default set of the model
