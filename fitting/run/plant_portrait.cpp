@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <espalier/charts/chart_layout.h>
 #include <espalier/fitting/branches/branch_offsets.h>
 #include <espalier/fitting/run/plant_portrait.h>
@@ -22,6 +24,15 @@ float width_m(const Plant& plant, float azimuth_deg) {
   Mask mask;
   make_scanline_renderer()->draw(plant, camera, mask);
   return area_px(mask) == 0 ? 0 : static_cast<float>(box_of(mask).width()) * camera.metres_per_px;
+}
+
+/// Trunks of no thickness.
+Plant without_trunks(Plant plant) {
+  for (std::size_t stem = 0; stem < plant.stems.size(); ++stem)
+    if (plant.stems.level[stem] == 0)
+      std::fill(plant.knots.radius_m.begin() + plant.stems.first_knot[stem],
+                plant.knots.radius_m.begin() + plant.stems.first_knot[stem + 1], 0.0F);
+  return plant;
 }
 
 /// The target and its labels, as large as a tile.
@@ -50,6 +61,7 @@ PlantPortrait portray(const Plant& plant, const View& front, const Overrides& ov
   const Camera camera = frame_bounds(bounds(plant), level, kMeasuredPx, kMeasuredPx);
   const float width = width_m(plant, front.azimuth_deg), depth = width_m(plant, front.azimuth_deg + 90);
   return {.visible_wood = count_visible_parts(plant, camera).wood_share(),
+          .crown_wood = count_visible_parts(without_trunks(plant), camera).wood_share(),
           .depth_over_width = width > 0 ? depth / width : 0,
           .stems = static_cast<double>(plant.stems.size()),
           .leaves = static_cast<double>(plant.leaves.size()),

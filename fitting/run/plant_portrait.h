@@ -11,7 +11,8 @@ namespace espalier {
 
 struct PlantPortrait {
   double visible_wood =
-      0;  ///< share of the plant's pixels that show wood, from where the first picture looks
+      0;                  ///< share of the plant's pixels that show wood, from where the first picture looks
+  double crown_wood = 0;  ///< the same without trunks, which many pictures show
   double depth_over_width = 0;  ///< of the plant's box, along that direction and across it; 0 without a width
   double stems = 0, leaves = 0;  ///< how many
   double override_numbers = 0;   ///< of the branches: what the tree needs beyond its parameters
@@ -26,6 +27,7 @@ struct PlantMeasure {
 
 inline constexpr PlantMeasure kPlantMeasures[] = {
     {"visible_wood", &PlantPortrait::visible_wood},
+    {"crown_wood", &PlantPortrait::crown_wood},
     {"depth_over_width", &PlantPortrait::depth_over_width},
     {"stems", &PlantPortrait::stems, true},
     {"leaves", &PlantPortrait::leaves, true},

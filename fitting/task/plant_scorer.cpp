@@ -7,6 +7,7 @@
 #include <espalier/core/error.h>
 #include <espalier/fitting/task/plant_depth.h>
 #include <espalier/fitting/task/plant_scorer.h>
+#include <espalier/fitting/task/wood_share.h>
 
 namespace espalier {
 
@@ -17,6 +18,17 @@ double estimated_excess(const FitTask& task, const ParameterValues& values) {
   const GrowthEstimate estimate = task.model->estimate(values);
   return std::max(estimate.stems / task.growth.budget.max_stems,
                   estimate.leaves / task.growth.budget.max_leaves);
+}
+
+/// What no silhouette shows: a crown of wood behind or before its leaves, and a depth that species do not
+/// have.
+double price_of_plant(const FitTask& task, const Plant& plant, double leaf_area) {
+  double price = 0;
+  if (expects_leaves(task))
+    price += task.bare_wood_price * wood_excess(wood_share(branch_area_m2(plant), leaf_area));
+  if (task.depth_price > 0)
+    price += task.depth_price * depth_excess(depth_over_width(plant, task.views.front().camera));
+  return price;
 }
 
 }  // namespace
@@ -42,13 +54,13 @@ double PlantScorer::score_one(const ParameterValues& values, Seed seed, Worker& 
   if (!(excess <= 1)) return over_budget_penalty(std::isnan(excess) ? 1e300 : excess);
   if (!worker.renderer) prepare(worker);
   worker.plant.clear();
-  const GrowthResult growth = grow_and_draw(*task_.model, values, seed, task_.growth, *worker.renderer,
-                                            worker.drawn_views, worker.plant);
+  double leaf_area = 0;
+  const GrowthResult growth =
+      grow_and_draw(*task_.model, values, seed, task_.growth, *worker.renderer, worker.drawn_views,
+                    worker.plant, expects_leaves(task_) ? &leaf_area : nullptr);
   if (!growth.grown) return over_budget_penalty(growth.over_budget_factor);
-  const double score = score_of_masks(task_, worker.masks, worker.leaves);
-  if (task_.depth_price == 0) return score;
-  const double depth = depth_over_width(worker.plant, task_.views.front().camera);
-  return std::min(1.0, score + task_.depth_price * depth_excess(depth));
+  return std::min(1.0, score_of_masks(task_, worker.masks, worker.leaves) +
+                           price_of_plant(task_, worker.plant, leaf_area));
 }
 
 /// True where a seed of the candidate failed. Throws what is not to be forgiven.

@@ -155,11 +155,28 @@ std::vector<LeafOutline> all_blossoms() {
   return outlines;
 }
 
+/// Of a flat outline, at unit size.
+double area_of(const LeafOutline& outline) {
+  double area = 0;
+  for (const auto& [a, b, c] : outline.triangles) {
+    const Vec3 u = outline.vertices[b] - outline.vertices[a], v = outline.vertices[c] - outline.vertices[a];
+    area += 0.5 * std::fabs(static_cast<double>(u.x * v.y - u.y * v.x));
+  }
+  return area;
+}
+
 }  // namespace
 
 const LeafOutline& leaf_outline(int shape) {
   static const std::vector<LeafOutline> outlines = all_leaves();
   return one_of(outlines, shape == 0 ? kEllipticShape : shape, "leaf_shape");
+}
+
+double leaf_area_m2(std::span<const float> lengths_m, std::span<const float> widths_m, int shape) {
+  double boxes = 0;
+  for (std::size_t i = 0; i < lengths_m.size(); ++i)
+    boxes += static_cast<double>(lengths_m[i]) * static_cast<double>(widths_m[i]);
+  return boxes * area_of(leaf_outline(shape));
 }
 
 const LeafOutline& blossom_outline(int shape) {

@@ -6,6 +6,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <espalier/core/vec3.h>
@@ -33,5 +34,8 @@ const LeafOutline& leaf_outline(int shape);
 /// Blossom 1 to kBlossomShapes.size(): cups opening along +y, about 1.3 wide and 0.5 to 0.7 tall.
 /// Throws InternalError for any other. The reference stays valid.
 const LeafOutline& blossom_outline(int shape);
+
+/// The area of leaves of this shape, one side of each, by their lengths and widths (of the same number).
+double leaf_area_m2(std::span<const float> lengths_m, std::span<const float> widths_m, int shape);
 
 }  // namespace espalier

@@ -18,10 +18,11 @@ struct SilhouetteView {
 /// Draws a whole plant into a view.
 void draw_view(SilhouetteRenderer& renderer, const Plant& plant, const SilhouetteView& view);
 
-/// Grows into `plant`, and draws it into all views. Afterwards the plant may lack leaves. Where the growth
-/// is refused, the masks mean nothing.
+/// Grows into `plant`, and draws it into all views. Afterwards the plant may lack leaves, whose area, one
+/// side of each, is in `leaf_area` (m²) unless that is null. Where the growth is refused, masks and area mean
+/// nothing.
 GrowthResult grow_and_draw(const Model& model, std::span<const double> values, Seed seed,
                            const GrowthSettings& settings, SilhouetteRenderer& renderer,
-                           std::span<const SilhouetteView> views, Plant& plant);
+                           std::span<const SilhouetteView> views, Plant& plant, double* leaf_area = nullptr);
 
 }  // namespace espalier
