@@ -62,7 +62,7 @@ std::vector<double> SearchBeginning::points() const {
 }
 
 SearchBeginning begin_search(const FitTask& task, Scorer& scorer) {
-  const std::vector<StartPoint> starts = make_start_points(*task.model, "auto", {}, task.growth.budget,
+  const std::vector<StartPoint> starts = make_start_points(*task.model, StartNames{}, {}, task.growth.budget,
                                                            kNominalHeightM, task.plant_seeds.front());
   std::vector<ParameterValues> candidates;
   candidates.reserve(starts.size());

@@ -5,7 +5,7 @@
 #include <espalier/core/files.h>
 #include <espalier/experiments/analysis/start_picture.h>
 #include <espalier/fitting/record/fit_record.h>
-#include <espalier/fitting/starts/start_points.h>
+#include <espalier/fitting/starts/fit_plan.h>
 #include <espalier/fitting/task/record_task.h>
 
 namespace espalier {
@@ -14,31 +14,34 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The name of the start point that scored best [summary.json].
-std::string best_start_name(const fs::path& summary_path) {
+/// The names of the start points, the best first [summary.json]. The best of a search of the species space
+/// stands among them, which no plan holds.
+std::vector<std::string> start_names(const fs::path& summary_path) {
   try {
-    const auto starts = nlohmann::json::parse(read_file(summary_path)).at("starts");
-    const auto best = std::max_element(starts.begin(), starts.end(), [](const auto& a, const auto& b) {
-      return a.at("fitness").template get<double>() < b.at("fitness").template get<double>();
+    auto starts = nlohmann::json::parse(read_file(summary_path)).at("starts");
+    std::stable_sort(starts.begin(), starts.end(), [](const auto& a, const auto& b) {
+      return a.at("fitness").template get<double>() > b.at("fitness").template get<double>();
     });
-    if (best != starts.end()) return best->at("name");
+    std::vector<std::string> names;
+    for (const auto& start : starts) names.push_back(start.at("name"));
+    return names;
   } catch (const nlohmann::json::exception& error) {
     throw_input_error("{}: got no summary of a run ({}), expected one", summary_path.string(), error.what());
   }
-  throw_input_error("{}: got no start points, expected some", summary_path.string());
 }
 
 }  // namespace
 
 Mask draw_best_start(const fs::path& directory) {
   FitRecord record = read_record(directory / "run.toml").record;
-  const std::string name = best_start_name(directory / "summary.json");
-  const FitTask task = make_task(record);
-  for (const StartPoint& start : make_start_points(*task.model, record.start, record.search, record.growth,
-                                                   target_height_m(record), task.plant_seeds.front()))
-    if (start.name == name) return draw_candidate(task, start.values, *task.make_renderer()).front();
-  throw_input_error("{}: got a start point '{}' that is none of the record's, expected one",
-                    directory.string(), name);
+  FitTask task = make_task(record);
+  const FitPlan plan = plan_of(record, task);
+  settle_branches(plan, task);
+  for (const std::string& name : start_names(directory / "summary.json"))
+    for (const StartPoint& start : plan.starts)
+      if (start.name == name) return draw_candidate(task, start.values, *task.make_renderer()).front();
+  throw_input_error("{}: got no start point of the record's in summary.json, expected one",
+                    directory.string());
 }
 
 }  // namespace espalier

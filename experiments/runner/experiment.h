@@ -48,6 +48,7 @@ struct FitsDeclaration {
   int threads = 1;                      ///< of each run; fewer runs at once then
   TargetGroups groups;                  ///< for means; none: no score sheet
   int unseen_seeds = 0;                 ///< trees of the result to grow with seeds that the fit never saw
+  bool exclude_truth = true;            ///< the species of a known target is not among the starts
   int siblings =
       0;  ///< trees of a target's species to score beside the result, on the side that it never saw
 };
@@ -86,6 +87,7 @@ struct ExperimentMetadata {
   std::string note;                       ///< a paragraph for the page
   std::vector<double> published_fitness;  ///< its range in the source, as [0.95, 0.97]; empty where unknown
   std::string text;                       ///< the whole file
+  std::filesystem::path expectations;     ///< beside the file; it need not be there
 };
 
 struct Experiment {

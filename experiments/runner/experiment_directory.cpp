@@ -122,7 +122,11 @@ void check_experiment_directory(const fs::path& directory, const Experiment& exp
 
 void write_declaration(const fs::path& directory, const Experiment& experiment) {
   write_file_atomically(directory / kDeclaration, experiment.words.text);
+  if (fs::is_regular_file(experiment.words.expectations))
+    write_file_atomically(kept_expectations(directory), read_file(experiment.words.expectations));
 }
+
+fs::path kept_expectations(const fs::path& directory) { return directory / "experiment.expected.toml"; }
 
 fs::path run_directory(const fs::path& experiment_directory, const std::string& run) {
   return experiment_directory / "runs" / run;

@@ -28,8 +28,12 @@ class DirectoryLock {
 /// Throws InputError where the directory is another experiment's, or holds other files.
 void check_experiment_directory(const std::filesystem::path& directory, const Experiment& experiment);
 
-/// experiment.toml, as the user gave it.
+/// experiment.toml, as the user gave it; and, where NAME.expected.toml lies beside it, that as
+/// experiment.expected.toml.
 void write_declaration(const std::filesystem::path& directory, const Experiment& experiment);
+
+/// Where the directory keeps its experiment's expectations, if it has some.
+std::filesystem::path kept_expectations(const std::filesystem::path& directory);
 
 /// runs/NAME below the experiment's directory.
 std::filesystem::path run_directory(const std::filesystem::path& experiment_directory,

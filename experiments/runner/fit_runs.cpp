@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include <espalier/core/error.h>
 #include <espalier/experiments/runner/fit_runs.h>
+#include <espalier/experiments/runner/known_truth.h>
 #include <espalier/experiments/runner/unseen_side.h>
 #include <espalier/experiments/runner/unseen_trees.h>
 #include <espalier/fitting/run/fit.h>
@@ -106,8 +107,7 @@ Measured measure(const FitResult& result, const FitCell& cell) {
   Measured measured;
   measured.results = {{"fitness", table_number(result.fitness)}};
   for (std::size_t row = 0; row < kMetricCount; ++row) {
-    const double value = result.metrics.values[row];
-    measured.results.emplace_back(kMetrics[row].name, std::isnan(value) ? "" : table_number(value));
+    measured.results.emplace_back(kMetrics[row].name, table_cell(result.metrics.values[row]));
   }
   measured.results.emplace_back("evaluations", fmt::format("{}", result.evaluations));
   measured.results.emplace_back("stopped_by", name_of(result.stopped_by));
@@ -195,6 +195,11 @@ std::string set_seed(FitCell& cell, Seed seed) {
   return fmt::format("{}", seed);
 }
 
+/// The label stays as it was declared: what is left out differs from target to target.
+void leave_out_truth(FitCell& cell) {
+  cell.record.start = start_beside_truth(cell.record.start, cell.tree.species);
+}
+
 std::vector<FitCell> all_cells(const FitsDeclaration& fits, const std::vector<ReadyTarget>& targets) {
   std::vector<FitCell> cells{{.record = fits.record,
                               .unseen_seeds = fits.unseen_seeds,
@@ -205,6 +210,7 @@ std::vector<FitCell> all_cells(const FitsDeclaration& fits, const std::vector<Re
   cells = expand(cells, "objective", fits.objectives, set_objective);
   cells = expand(cells, "space", fits.spaces, set_space);
   cells = expand(cells, "start", fits.starts, set_start);
+  if (fits.exclude_truth) std::ranges::for_each(cells, leave_out_truth);
   cells = expand(cells, "trained", fits.trained, set_trained);
   return expand(cells, "seed", fits.seeds, set_seed);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 
 #include <espalier/experiments/runner/plan.h>
@@ -9,6 +10,8 @@
 namespace espalier {
 
 std::string table_number(double value) { return fmt::format("{:.6g}", value); }
+
+std::string table_cell(double value) { return std::isnan(value) ? "" : table_number(value); }
 
 std::string directory_name(const std::string& text) {
   std::string name = text;

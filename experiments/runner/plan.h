@@ -44,6 +44,9 @@ struct Plan {
 /// A number as tables show it: six significant digits.
 std::string table_number(double value);
 
+/// The same, and an empty cell for NaN.
+std::string table_cell(double value);
+
 /// Letters, digits, '_', '.', '=' and '-'; all else becomes '-'.
 std::string directory_name(const std::string& text);
 

@@ -10,6 +10,7 @@
 #include <espalier/core/toml/toml_section.h>
 #include <espalier/environment/volume.h>
 #include <espalier/experiments/runner/experiment.h>
+#include <espalier/experiments/runner/known_truth.h>
 #include <espalier/fitting/optimizers/search_method.h>
 #include <espalier/fitting/record/fit_options.h>
 #include <espalier/fitting/record/option_values.h>
@@ -187,6 +188,9 @@ SpaceDeclaration read_space(const Element& element, const FitRecord& shared) {
   const Model& model = model_by_name(shared.model);
   SpaceDeclaration space;
   space.label = section.text_or("label", "default");
+  if (section.table.size() == 1 && space.label != "default")
+    throw_input_error("{}: got '{}' alone, expected \"default\" or a table with free, fixed or first",
+                      element.place(), space.label);
   space.first = section.text_or("first", "");
   located(element.place(), [&] {
     FitRecord record = shared;
@@ -206,6 +210,10 @@ std::vector<SpaceDeclaration> read_spaces(const TomlSection& fits, const FitReco
   std::vector<SpaceDeclaration> spaces;
   for (const toml::node& node : filled_array(fits, "spaces"))
     spaces.push_back(read_space(Element(fits, "spaces", node, "label"), shared));
+  for (std::size_t i = 0; i < spaces.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (spaces[i].label == spaces[j].label)
+        fits.fail("spaces", fmt::format("one space labelled '{}'", spaces[i].label));
   return spaces;
 }
 
@@ -214,7 +222,8 @@ std::vector<std::string> read_starts(const TomlSection& fits, const FitRecord& s
   filled_array(fits, "starts");
   std::vector<std::string> starts = fits.texts("starts");
   for (const std::string& start : starts)
-    located(fits, "starts", [&] { return presets_as_written(model_by_name(shared.model).table(), start); });
+    located(fits, "starts",
+            [&] { return presets_as_written(model_by_name(shared.model).table(), parse_start(start)); });
   return starts;
 }
 
@@ -299,10 +308,17 @@ FitRecord read_shared_record(const TomlSection& fits) {
   return record;
 }
 
+void check_starts_beside_truth(const TomlSection& fits, const FitsDeclaration& declaration) {
+  for (const std::string& start : declaration.starts)
+    for (const TargetDeclaration& target : declaration.targets)
+      located(place_of(fits, "starts"), [&] { return start_beside_truth(start, target.species); });
+}
+
 /// The lists that are varied, what belongs to an experiment alone, and the options that all runs share.
 std::vector<std::string> keys_of_fits() {
-  std::vector<std::string> keys{"targets", "optimizers", "objectives", "spaces",       "starts",   "seeds",
-                                "view",    "trained",    "threads",    "unseen_seeds", "siblings", "groups"};
+  std::vector<std::string> keys{"targets",  "optimizers",    "objectives", "spaces",  "starts",
+                                "seeds",    "view",          "trained",    "threads", "unseen_seeds",
+                                "siblings", "exclude_truth", "groups"};
   for (const FitOption& option : fit_options())
     if (const std::string key = experiment_key(option); !key.empty()) keys.push_back(key);
   return keys;
@@ -324,6 +340,8 @@ FitsDeclaration read_fits(const TomlSection& fits) {
   declaration.groups = read_declared_groups(fits, declaration.targets);
   declaration.unseen_seeds = static_cast<int>(whole_between(fits, "unseen_seeds", 0, 1000, 0));
   declaration.siblings = static_cast<int>(whole_between(fits, "siblings", 0, 1000, 0));
+  declaration.exclude_truth = fits.has("exclude_truth") ? fits.flag("exclude_truth") : true;
+  if (declaration.exclude_truth) check_starts_beside_truth(fits, declaration);
   return declaration;
 }
 
@@ -469,6 +487,7 @@ Document read_document(const fs::path& path, const std::vector<std::string>& set
   known.insert(known.end(), kKinds.begin(), kKinds.end());
   root.expect_only(known);
   words.name = path.stem();
+  words.expectations = path.parent_path() / (words.name + ".expected.toml");
   words.kind = kind_of(root);
   words.title = root.text_or("title", words.name);
   words.figure = root.text_or("figure", "");

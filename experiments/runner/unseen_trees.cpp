@@ -31,8 +31,8 @@ UnseenScore UnseenTrees::score(const ParameterValues& values) const {
 }
 
 ParameterValues UnseenTrees::truth(const std::string& species) const {
-  return make_start_points(*task_.model, species, {}, kUnseenBudget, target_height_m(record_),
-                           task_.plant_seeds.front())
+  return make_start_points(*task_.model, {.source = StartSource::named, .presets = {species}}, {},
+                           kUnseenBudget, target_height_m(record_), task_.plant_seeds.front())
       .front()
       .values;
 }

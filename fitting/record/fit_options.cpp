@@ -7,6 +7,7 @@
 #include <espalier/fitting/optimizers/search_method.h>
 #include <espalier/fitting/record/fit_options.h>
 #include <espalier/fitting/record/species_components.h>
+#include <espalier/fitting/record/start_names.h>
 #include <espalier/image/measures/objective.h>
 #include <espalier/models/models.h>
 
@@ -37,6 +38,8 @@ void check_views(const FitRecord& record) {
   if (record.views.empty()) throw_input_error("got no picture, expected at least one");
   for (const ViewRecord& view : record.views) check_view(view);
 }
+
+void check_start(const FitRecord& record) { parse_start(record.start); }
 
 bool has_space(const FitRecord& record) { return !record.space.empty(); }
 
@@ -271,7 +274,10 @@ std::vector<FitOption> options_of_the_start() {
        .key = "search.start",
        .option = "start",
        .member = [](FitRecord& record) -> std::string& { return record.start; },
-       .help = "auto (all presets), defaults, or presets: NAME,NAME",
+       .check = check_start,
+       .help = "auto (all presets), auto,-NAME (all but these), defaults, random:K (K plants that nobody "
+               "chose), or "
+               "presets: NAME,NAME",
        .experiment_list = "starts"},
       {.field = "species",
        .key = "search.species",

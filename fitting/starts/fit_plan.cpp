@@ -1,5 +1,4 @@
-#include <fmt/ranges.h>
-
+#include <algorithm>
 #include <optional>
 
 #include <espalier/core/field_error.h>
@@ -16,9 +15,12 @@ namespace espalier {
 namespace {
 
 /// Where fits of palms start: from what the model has with fronds.
-std::string palm_starts(const Model& model) {
-  const std::vector<std::string> presets = model.palm_presets();
-  return presets.empty() ? "auto" : fmt::format("{}", fmt::join(presets, ","));
+StartNames palm_starts(const Model& model, const StartNames& automatic) {
+  StartNames palms{.source = StartSource::named, .presets = model.palm_presets()};
+  std::erase_if(palms.presets, [&](const std::string& palm) {
+    return std::ranges::find(automatic.left_out, palm) != automatic.left_out.end();
+  });
+  return palms.presets.empty() ? automatic : palms;
 }
 
 /// Makes the parts of a plan in their order: each may look at those before it.
@@ -29,7 +31,8 @@ class Planner {
         task_(task),
         table_(task.model->table()),
         reading_(task.views.front().reading),
-        height_m_(target_height_m(record)) {}
+        height_m_(target_height_m(record)),
+        start_(parse_start(record.start)) {}
 
   FitPlan plan() {
     plan_.kind = record_.kind == KindChoice::automatic ? choice_of(reading_.kind) : record_.kind;
@@ -47,13 +50,13 @@ class Planner {
  private:
   /// Whether the picture is to say anything.
   bool is_read() const { return record_.kind != KindChoice::any; }
-  bool starts_are_ours() const { return record_.start == "auto"; }
+  bool starts_are_ours() const { return is_automatic(start_); }
 
   /// What the search starts from: what the user names, or what there is.
-  std::string start_names() const {
-    if (!starts_are_ours()) return record_.start;
-    if (!record_.species.empty()) return record_.species;
-    return trunk_ ? palm_starts(*task_.model) : record_.start;
+  StartNames start_names() const {
+    if (!starts_are_ours()) return start_;
+    if (!record_.species.empty()) return {.source = StartSource::named, .presets = {record_.species}};
+    return trunk_ ? palm_starts(*task_.model, start_) : start_;
   }
 
   /// The trunk that a palm is held to; none where the user says how to search, or the model has no such
@@ -95,7 +98,7 @@ class Planner {
                         species.model, table_.model);
     prepare_start(*task_.model, record_.growth, height_m_, task_.plant_seeds.front(), species.values);
     std::vector<ParameterValues> all;
-    for (const StartPoint& bundled : presets_as_written(table_, "auto")) all.push_back(bundled.values);
+    for (const StartPoint& bundled : presets_as_written(table_, StartNames{})) all.push_back(bundled.values);
     if (all.empty())
       throw_field_error("species", "got model '{}', which has no bundled species to tell what one allows",
                         record_.model);
@@ -103,7 +106,9 @@ class Planner {
   }
 
   std::vector<StartPoint> starts() const {
-    if (!record_.stages.search && !starts_are_ours()) return presets_as_written(table_, record_.start);
+    if (!record_.stages.search &&
+        (start_.source == StartSource::named || start_.source == StartSource::defaults))
+      return presets_as_written(table_, start_);
     std::vector<StartPoint> starts = make_start_points(*task_.model, start_names(), plan_.choice,
                                                        record_.growth, height_m_, task_.plant_seeds.front());
     for (StartPoint& start : starts) {
@@ -135,6 +140,7 @@ class Planner {
   const ParameterTable& table_;
   const PictureReading& reading_;
   double height_m_;
+  StartNames start_;
   std::optional<TrunkLine> trunk_;
   FitPlan plan_;
 };

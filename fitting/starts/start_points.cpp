@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 #include <espalier/core/field_error.h>
+#include <espalier/fitting/starts/random_starts.h>
 #include <espalier/fitting/starts/start_points.h>
 #include <espalier/fitting/starts/thinning.h>
 #include <espalier/models/preset.h>
@@ -12,12 +12,13 @@ namespace espalier {
 
 namespace {
 
-std::vector<std::string> split_at_commas(const std::string& text) {
-  std::vector<std::string> parts;
-  std::stringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');)
-    if (!part.empty()) parts.push_back(part);
-  return parts;
+/// The bundled presets but for those to leave out. Throws FieldError for a name that none of them has.
+std::vector<std::string> bundled_without(const std::vector<std::string>& left_out) {
+  std::vector<std::string> names = bundled_presets();
+  for (const std::string& name : left_out)
+    if (std::erase(names, name) == 0)
+      throw_field_error("start", "got '-{}', expected a bundled preset to leave out", name);
+  return names;
 }
 
 /// The height of the grown plant above its base, or 0 where it does not grow.
@@ -45,15 +46,16 @@ std::optional<std::size_t> leaves_row(const ParameterTable& table) {
 
 }  // namespace
 
-std::vector<StartPoint> presets_as_written(const ParameterTable& table, const std::string& start) {
-  if (start == "defaults") return {{"defaults", table.defaults()}};
+std::vector<StartPoint> presets_as_written(const ParameterTable& table, const StartNames& start) {
+  if (start.source == StartSource::defaults) return {{"defaults", table.defaults()}};
+  if (start.source == StartSource::random) return {};
   std::vector<StartPoint> points;
-  const bool automatic = start == "auto";
-  for (const std::string& name : automatic ? bundled_presets() : split_at_commas(start)) {
+  const bool are_named = start.source == StartSource::named;
+  for (const std::string& name : are_named ? start.presets : bundled_without(start.left_out)) {
     Preset preset = in_field("start", [&] { return load_preset(name); });
     if (preset.model == table.model)
       points.push_back({preset.name, std::move(preset.values), std::move(preset.overrides)});
-    else if (!automatic)
+    else if (are_named)
       throw_field_error("start", "got '{}' of model {}, expected a preset of {}", name, preset.model,
                         table.model);
   }
@@ -78,9 +80,11 @@ void take_leaves(const ParameterTable& table, ParameterValues& values) {
   if (const auto row = leaves_row(table)) values[*row] = 0;
 }
 
-std::vector<StartPoint> make_start_points(const Model& model, const std::string& start,
+std::vector<StartPoint> make_start_points(const Model& model, const StartNames& start,
                                           const SearchChoice& choice, const GrowthBudget& budget,
                                           double height_m, Seed plant_seed) {
+  if (start.source == StartSource::random)
+    return random_starts(model, start.draws, choice, budget, height_m, plant_seed);
   const ParameterTable& table = model.table();
   std::vector<StartPoint> points = presets_as_written(table, start);
   const std::size_t presets = points.size();

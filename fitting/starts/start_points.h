@@ -7,6 +7,7 @@
 #include <espalier/core/parameter_table.h>
 #include <espalier/core/random.h>
 #include <espalier/fitting/record/search_space.h>
+#include <espalier/fitting/record/start_names.h>
 #include <espalier/overrides/overrides.h>
 #include <espalier/plant/model.h>
 
@@ -27,15 +28,14 @@ void prepare_start(const Model& model, const GrowthBudget& budget, double height
 bool has_leaves(const ParameterTable& table, const ParameterValues& values);
 void take_leaves(const ParameterTable& table, ParameterValues& values);
 
-/// Presets by `start`, as make_start_points takes it, as they are written: with their overrides, not scaled
-/// and not thinned. Throws InputError as it does.
-std::vector<StartPoint> presets_as_written(const ParameterTable& table, const std::string& start);
+/// The presets of `start` as they are written: with their overrides, not scaled and not thinned. Of random
+/// plants there are none. Throws InputError as make_start_points does.
+std::vector<StartPoint> presets_as_written(const ParameterTable& table, const StartNames& start);
 
-/// The start points of `start`: "auto" (each bundled preset of the model), "defaults" (those of the
-/// table), or names and paths of presets with commas between. Each preset also without its leaves, if it
-/// has any. Grown trees are `height_m` tall. Fixed values are set, counts may be relaxed, and the size does
-/// not vary from tree to tree. Throws InputError for presets that cannot be read or are of another model.
-std::vector<StartPoint> make_start_points(const Model& model, const std::string& start,
+/// The start points of `start` [start_names.h]. Each preset also without its leaves, if it has any. Grown
+/// trees are `height_m` tall. Fixed values are set, counts may be relaxed, and the size does not vary from
+/// tree to tree. Throws InputError for presets that cannot be read or are of another model.
+std::vector<StartPoint> make_start_points(const Model& model, const StartNames& start,
                                           const SearchChoice& choice, const GrowthBudget& budget,
                                           double height_m, Seed plant_seed);
 

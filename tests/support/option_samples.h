@@ -46,6 +46,7 @@ inline OptionSample sample_of_text(const FitOption& option) {
   const auto other = others.find(option.field);
   OptionSample sample{other == others.end() ? "another" : other->second, "7", {}};
   const bool takes_any = option.field == "model" || option.field == "start" || option.field == "target_hash";
+  if (option.field == "start") sample.bad = {"'random:0'", "'random:many'", "'auto,acer'", "''"};
   if (!takes_any && other != others.end()) sample.bad = {"'nobody'"};
   return sample;
 }

@@ -31,7 +31,7 @@ fs::path small_study() {
   return file_with(
       "study.toml",
       "[fits]\ntargets = ['oc_palm', {species = 'palm', seed = 3}]\noptimizers = ['cma_es', 'LN_SBPLX']\n"
-      "starts = ['palm']\nseeds = 2\nevaluations = 200\nsize = 32\nmax_stems = 300\n"
+      "starts = ['palm']\nexclude_truth = false\nseeds = 2\nevaluations = 200\nsize = 32\nmax_stems = 300\n"
       "max_leaves = 3000\nunseen_seeds = 2\nsiblings = 2\n");
 }
 
@@ -129,8 +129,8 @@ TEST(ExperimentCommand, TheQuickExperimentRunsAndIsReported) {
   ASSERT_EQ(run_espalier(run_arguments(kQuick, out)).exit_code, 0);
   const ProgramRun report = run_espalier("experiment report '" + out.string() + "'");
   ASSERT_EQ(report.exit_code, 0) << report.err;
-  for (const char* file : {"index.html", "convergence.csv", "data_profile.csv", "ranks.csv", "friedman.csv",
-                           "results.csv", "generations.csv"})
+  for (const char* file : {"index.html", "convergence.csv", "data_profile.csv", "ranks_fitness.csv",
+                           "friedman_fitness.csv", "results.csv", "generations.csv"})
     EXPECT_GT(fs::file_size(out / "report" / file), 50u) << file;
   const bool can_plot = run_shell("/usr/bin/python3 -c 'import matplotlib'").exit_code == 0;
   EXPECT_EQ(fs::exists(out / "report" / "convergence.svg"), can_plot);

@@ -17,7 +17,7 @@ const ParameterTable& weber_penn() { return model_by_name("weber_penn").table();
 
 std::vector<ParameterValues> all_species() {
   std::vector<ParameterValues> all;
-  for (const StartPoint& start : presets_as_written(weber_penn(), "auto")) all.push_back(start.values);
+  for (const StartPoint& start : presets_as_written(weber_penn(), StartNames{})) all.push_back(start.values);
   return all;
 }
 

@@ -17,7 +17,7 @@ const ParameterTable& table() { return model().table(); }
 
 std::vector<StartPoint> starts(const std::string& start, const SearchChoice& choice = {},
                                GrowthBudget budget = {20'000, 100'000}, double height_m = 10) {
-  return make_start_points(model(), start, choice, budget, height_m, 1);
+  return make_start_points(model(), parse_start(start), choice, budget, height_m, 1);
 }
 
 double value(const StartPoint& point, const std::string& name) {
