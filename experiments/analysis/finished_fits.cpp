@@ -48,10 +48,13 @@ std::map<std::string, double> read_seconds(const fs::path& path) {
 }
 
 FinishedFit read_fit(const CsvTable& results, std::size_t row, const fs::path& directory) {
-  FinishedFit fit{results.text(row, "run"), results.text(row, "target"), method_of(results, row),
-                  results.text(row, "seed"), results.text(row, "status") == "failed"};
+  FinishedFit fit{results.text(row, "run"),       results.text(row, "target"),
+                  method_of(results, row),        results.text(row, "seed"),
+                  results.text(row, "objective"), results.text(row, "status") == "failed"};
   fit.fitness = results.number(row, "fitness");
-  fit.unseen_fitness = results.number(row, "unseen_fitness");
+  for (const char* measure :
+       {"fitness", "unseen_fitness", "iou", "unseen_iou", "tolerant_iou", "outline_iou"})
+    if (results.has(measure)) fit.measures[measure] = results.number(row, measure);
   if (fit.failed) return fit;
   fit.trace = read_trace(run_directory(directory, fit.run) / "trace.csv");
   fit.curve = curve_of(fit.trace);

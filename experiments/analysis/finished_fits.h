@@ -1,6 +1,7 @@
 // The finished runs of an experiment of fits, as its tables and traces tell of them.
 #pragma once
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,10 @@ struct GenerationRow {
 };
 
 struct FinishedFit {
-  std::string run, target, method, seed;  ///< method: the optimiser, and what else varies
+  std::string run, target, method, seed, objective;  ///< method: the optimiser, and what else varies
   bool failed = false;
-  double fitness = 0, unseen_fitness = 0, seconds = 0;  ///< NaN where not known
+  double fitness = 0, seconds = 0;         ///< NaN where not known
+  std::map<std::string, double> measures;  ///< by columns of results.csv: what methods may be compared by
   std::vector<GenerationRow> trace;
   StepCurve curve;  ///< of the best fitness
 };

@@ -48,17 +48,26 @@ CsvTable complexity_table(const CsvTable& samples) {
   return table;
 }
 
-std::vector<std::string> fit_row(const std::string& what, const std::vector<double>& sizes,
-                                 const std::vector<double>& seconds) {
-  const PowerLaw law = fit_power_law(sizes, seconds);
+/// Trees of a species are as like each other as no others are: each species is a cluster.
+std::vector<std::size_t> clusters_of(const CsvTable& samples) {
+  std::map<std::string, std::size_t> numbers;
+  std::vector<std::size_t> clusters;
+  for (std::size_t row = 0; row < samples.rows.size(); ++row)
+    clusters.push_back(numbers.emplace(samples.text(row, "species"), numbers.size()).first->second);
+  return clusters;
+}
+
+std::vector<std::string> fit_row(const std::string& what, const CsvTable& samples, const char* sizes,
+                                 const char* seconds) {
+  const PowerLaw law = fit_power_law(column(samples, sizes), column(samples, seconds), clusters_of(samples));
   return {what, table_number(law.exponent), table_number(law.standard_error), table_number(law.factor),
           fmt::format("{}", law.points)};
 }
 
 CsvTable exponent_table(const CsvTable& samples) {
   CsvTable table{{"what", "exponent", "standard_error", "factor", "points"}, {}, "growth_fit.csv"};
-  table.rows.push_back(fit_row("stems", column(samples, "knots"), column(samples, "stem_seconds")));
-  table.rows.push_back(fit_row("leaves", column(samples, "leaves"), column(samples, "leaf_seconds")));
+  table.rows.push_back(fit_row("stems", samples, "knots", "stem_seconds"));
+  table.rows.push_back(fit_row("leaves", samples, "leaves", "leaf_seconds"));
   return table;
 }
 

@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include <espalier/core/data_path.h>
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
 #include <espalier/experiments/analysis/draw_report.h>
 #include <espalier/experiments/analysis/fit_tables.h>
 #include <espalier/experiments/analysis/growth_tables.h>
 #include <espalier/experiments/analysis/plant_tables.h>
+#include <espalier/experiments/analysis/rank_tables.h>
 #include <espalier/experiments/analysis/report.h>
 #include <espalier/experiments/analysis/score_sheet.h>
 #include <espalier/experiments/analysis/start_picture.h>
@@ -42,6 +44,23 @@ void check_done(const fs::path& directory) {
                       directory.string());
 }
 
+/// Of ranks_M.csv and its like.
+std::string title_by_measure(const std::string& file) {
+  constexpr std::pair<std::string_view, std::string_view> kTitles[] = {
+      {"ranks_", "Ranks by {}: targets are blocks; methods that share a letter do not differ"},
+      {"friedman_", "Friedman's test of {}"},
+      {"pairs_",
+       "Pairs by {}: the median difference over the targets, its 95 % interval, Wilcoxon's test, Holm's "
+       "correction"}};
+  for (const auto& [prefix, title] : kTitles)
+    if (file.starts_with(prefix)) {
+      const std::string measure =
+          file.substr(prefix.size(), file.size() - prefix.size() - std::string(".csv").size());
+      return fmt::format(fmt::runtime(title), measure);
+    }
+  return "";
+}
+
 std::string title_of(const std::string& file) {
   static const std::map<std::string, std::string> titles{
       {"score_groups.csv", "Score sheet by groups: means of the pictures' means"},
@@ -49,12 +68,10 @@ std::string title_of(const std::string& file) {
       {"results.csv", "All runs"},
       {"plants.csv", "Plants: wood that shows, depth, leaves, numbers of overrides"},
       {"sides.csv", "The side that no picture shows: fits beside trees of the true parameters"},
-      {"ranks.csv", "Ranks: methods that share a letter do not differ"},
-      {"friedman.csv", "Friedman's test"},
       {"growth_fit.csv", "Exponents: seconds = factor · size^exponent"},
       {"growth_complexity.csv", "Points of the stems' curves"}};
   const auto found = titles.find(file);
-  return found == titles.end() ? "" : found->second;
+  return found == titles.end() ? title_by_measure(file) : found->second;
 }
 
 Json table_list(const Tables& tables) {
@@ -125,17 +142,21 @@ std::string objective_in(const fs::path& directory) {
   return objectives.size() == 1 ? objectives[0] : "";
 }
 
+/// Of a bundled experiment its file; of another one what the page itself shows.
+std::string command_of(const ExperimentMetadata& words) {
+  const fs::path bundled = data_path_or_first("experiments") / (words.name + ".toml");
+  const bool is_bundled = fs::is_regular_file(bundled) && same_runs(read_file(bundled), words.text);
+  if (is_bundled) return fmt::format("./espalier experiment run experiments/{}.toml", words.name);
+  return fmt::format("espalier experiment run {0}.toml   # the declaration below, saved as {0}.toml",
+                     words.name);
+}
+
 Json meta_of(const ExperimentMetadata& words, const ReportOptions& options) {
-  return {{"name", words.name},
-          {"kind", words.kind},
-          {"title", words.title},
-          {"figure", words.figure},
-          {"published", words.published},
-          {"published_fitness", words.published_fitness},
-          {"found", words.found},
-          {"note", words.note},
-          {"command", fmt::format("./espalier experiment run experiments/{}.toml", words.name)},
-          {"declaration", words.text},
+  return {{"name", words.name},           {"kind", words.kind},
+          {"title", words.title},         {"figure", words.figure},
+          {"published", words.published}, {"published_fitness", words.published_fitness},
+          {"found", words.found},         {"note", words.note},
+          {"command", command_of(words)}, {"declaration", words.text},
           {"versions", options.versions}};
 }
 
@@ -161,6 +182,7 @@ fs::path write_report(const fs::path& directory, const ReportOptions& options) {
       meta["thumbnails"] = thumbnails_of(fits, directory);
     }
     meta["objective"] = objective_in(directory);
+    meta["ranked_by"] = ranked_measures(fits);
     const CsvTable results = read_csv(directory / "results.csv");
     for (CsvTable table :
          {plant_table(results, read_groups(directory / "experiment.toml")), side_table(results)})

@@ -23,8 +23,8 @@ CAPTIONS = {
     "convergence_targets": "The same for each target.",
     "data_profile": "Share of all (target, seed, level) that a method has reached within so many evaluations. Levels "
                     "lie between the median fitness of the first evaluations and the best that any run reached.",
-    "ranks": "Mean ranks over all blocks. Methods that a vertical bar joins do not differ significantly (Nemenyi's "
-             "test at the level in the table).",
+    "ranks": "Mean ranks over the targets, by {measure}. Methods that a vertical bar joins do not differ significantly "
+             "(Nemenyi's test at the level in the table).",
     "growth_times": "Time to grow one tree, by species: a mark a tree.",
     "growth_size": "Time to grow against size, all trees, with the fitted power law.",
     "growth_complexity": "Knots of the stems by species.",
@@ -105,9 +105,15 @@ def plot(directory, stem):
     path = directory / f"{stem}.svg"
     if path.stat().st_size > LARGEST_SVG:
         path = path.with_suffix(".png")
-    caption = CAPTIONS.get(stem, stem)
+    caption = caption_of(stem)
     return (f"<figure><img class=\"plot\" src=\"{data_uri(path)}\" alt=\"{text(caption)}\">\n"
             f"<figcaption>{text(caption)} Files: {stem}.svg, .png, .pdf.</figcaption></figure>")
+
+
+def caption_of(stem):
+    """Of a plot, or of one of several that a measure has each: ranks_fitness."""
+    first, _, measure = stem.partition("_")
+    return CAPTIONS.get(stem) or CAPTIONS.get(first, stem).format(measure=measure)
 
 
 def data_uri(path):

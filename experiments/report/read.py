@@ -27,7 +27,7 @@ def read_meta(directory):
         raise ReportError(f"{path}: got no \"name\", expected an object with the experiment's name")
     if meta.get("kind") not in KINDS:
         raise ReportError(f"{path}: kind: got {meta.get('kind')!r}, expected one of {', '.join(KINDS)}")
-    for key in ["tables", "thumbnails"]:
+    for key in ["tables", "thumbnails", "ranked_by"]:
         if not isinstance(meta.setdefault(key, []), list):
             raise ReportError(f"{path}: {key}: got {type(meta[key]).__name__}, expected a list")
     return meta

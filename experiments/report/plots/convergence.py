@@ -20,7 +20,7 @@ def draw(directory, meta):
     if not rows:
         return {}
     targets = grouped(rows, "target")
-    names = best_first(directory, [row["optimizer"] for row in rows])
+    names = best_first(directory, meta, [row["optimizer"] for row in rows])
     figures = {}
     if "all" in targets:
         figures["convergence"] = draw_one(targets.pop("all"), names)

@@ -16,7 +16,7 @@ def draw(directory, meta):
     rows = read_table(directory / "data_profile.csv", COLUMNS)
     if not rows:
         return {}
-    names = best_first(directory, [row["optimizer"] for row in rows])
+    names = best_first(directory, meta, [row["optimizer"] for row in rows])
     styles = style.line_styles(names)
     figure, axes = plt.subplots(figsize=(7, 4.4))
     for name, curve in grouped(rows, "optimizer").items():

@@ -13,12 +13,15 @@ LETTER = re.compile(r"[a-z]\d*")
 
 
 def draw(directory, meta):
-    rows = read_table(directory / "ranks.csv", COLUMNS)
-    rows = sorted((row for row in rows or [] if row["mean_rank"] is not None), key=lambda row: row["mean_rank"])
-    if not rows:
-        return {}
-    friedman = read_table(directory / "friedman.csv", {"statistic": str, "value": number}) or []
-    return {"ranks": draw_rows(rows, {row["statistic"]: row["value"] for row in friedman})}
+    figures = {}
+    for measure in meta["ranked_by"]:
+        rows = read_table(directory / f"ranks_{measure}.csv", COLUMNS)
+        rows = sorted((row for row in rows or [] if row["mean_rank"] is not None), key=lambda row: row["mean_rank"])
+        if not rows:
+            continue
+        friedman = read_table(directory / f"friedman_{measure}.csv", {"statistic": str, "value": number}) or []
+        figures[f"ranks_{measure}"] = draw_rows(rows, {row["statistic"]: row["value"] for row in friedman})
+    return figures
 
 
 def draw_rows(rows, friedman):

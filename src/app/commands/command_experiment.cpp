@@ -103,9 +103,11 @@ struct CheckArguments {
   std::string directory, expected;
 };
 
-/// NAME.expected.toml among the bundled experiments, for runs/NAME.
+/// What the experiment's own expectations were when it ran; else NAME.expected.toml among the bundled
+/// experiments, for runs/NAME.
 fs::path expected_for(const CheckArguments& arguments) {
   if (!arguments.expected.empty()) return arguments.expected;
+  if (const fs::path kept = kept_expectations(arguments.directory); fs::exists(kept)) return kept;
   const std::string name =
       fs::absolute(fs::path(arguments.directory) / ".").lexically_normal().parent_path().filename();
   return data_path("experiments/" + name + ".expected.toml");

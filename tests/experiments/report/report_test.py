@@ -123,8 +123,8 @@ class Plots(ReportTest):
                 self.assertTrue((directory / f"{stem}.{extension}").read_bytes().startswith(start))
 
     def test_every_table_of_fits_is_drawn_in_three_formats(self):
-        self.expect_plots(self.once_drawn("fits"), {"convergence", "convergence_targets", "data_profile", "ranks",
-                                                     "generations"})
+        self.expect_plots(self.once_drawn("fits"), {"convergence", "convergence_targets", "data_profile",
+                                                     "ranks_fitness", "generations"})
 
     def test_every_table_of_growth_is_drawn_in_three_formats(self):
         self.expect_plots(self.once_drawn("growth"), {"growth_times", "growth_size", "growth_complexity"})
@@ -135,7 +135,7 @@ class Plots(ReportTest):
     def test_what_has_no_table_has_no_plot(self):
         directory = self.fits(left_out=["convergence", "generations", "data_profile"])
         self.drawn(directory)
-        self.expect_plots(directory, {"ranks"})
+        self.expect_plots(directory, {"ranks_fitness"})
 
     def test_cells_without_a_number_are_left_out(self):
         directory = self.growth()
@@ -221,9 +221,9 @@ class BadInput(ReportTest):
 
     def test_a_table_on_the_page_with_a_short_row(self):
         directory = self.fits(left_out=["convergence", "generations"])
-        with open(directory / "friedman.csv", "a") as file:
+        with open(directory / "friedman_fitness.csv", "a") as file:
             file.write("blocks\n")
-        self.expect_refused(directory, "friedman.csv:11", "got 1 cells, expected 2")
+        self.expect_refused(directory, "friedman_fitness.csv:11", "got 1 cells, expected 2")
 
     @needs_matplotlib
     def test_a_word_where_a_number_belongs(self):
@@ -240,8 +240,8 @@ class BadInput(ReportTest):
     @needs_matplotlib
     def test_an_empty_table(self):
         directory = self.fits(left_out=["convergence", "generations"])
-        (directory / "ranks.csv").write_text("")
-        self.expect_refused(directory, "ranks.csv", "empty")
+        (directory / "ranks_fitness.csv").write_text("")
+        self.expect_refused(directory, "ranks_fitness.csv", "empty")
 
     @needs_matplotlib
     def test_a_sheet_with_fewer_cells_than_labels(self):
