@@ -33,7 +33,7 @@ std::string start_beside_truth(const std::string& start, const std::string& spec
   if (is_automatic && (contains(names.left_out, species) || !contains(bundled_presets(), species)))
     return start;
   const bool is_truth = names.source == StartSource::defaults && are_defaults(species);
-  const std::string beside = start_without(start, species);
+  std::string beside = start_without(start, species);
   if (is_truth || beside.empty())
     throw_field_error("start",
                       "got '{}' for a target that is a {}, expected another start, or exclude_truth = false",

@@ -107,7 +107,7 @@ struct CheckArguments {
 /// experiments, for runs/NAME.
 fs::path expected_for(const CheckArguments& arguments) {
   if (!arguments.expected.empty()) return arguments.expected;
-  if (const fs::path kept = kept_expectations(arguments.directory); fs::exists(kept)) return kept;
+  if (fs::path kept = kept_expectations(arguments.directory); fs::exists(kept)) return kept;
   const std::string name =
       fs::absolute(fs::path(arguments.directory) / ".").lexically_normal().parent_path().filename();
   return data_path("experiments/" + name + ".expected.toml");
