@@ -52,9 +52,8 @@ FinishedFit read_fit(const CsvTable& results, std::size_t row, const fs::path& d
                   method_of(results, row),        results.text(row, "seed"),
                   results.text(row, "objective"), results.text(row, "status") == "failed"};
   fit.fitness = results.number(row, "fitness");
-  for (const char* measure :
-       {"fitness", "unseen_fitness", "iou", "unseen_iou", "tolerant_iou", "outline_iou"})
-    if (results.has(measure)) fit.measures[measure] = results.number(row, measure);
+  for (const char* measure : kMeasuresOfOneObjective) fit.measures[measure] = results.number(row, measure);
+  for (const char* measure : kMeasuresInCommon) fit.measures[measure] = results.number(row, measure);
   if (fit.failed) return fit;
   fit.trace = read_trace(run_directory(directory, fit.run) / "trace.csv");
   fit.curve = curve_of(fit.trace);

@@ -19,10 +19,15 @@ struct FinishedFit {
   std::string run, target, method, seed, objective;  ///< method: the optimiser, and what else varies
   bool failed = false;
   double fitness = 0, seconds = 0;         ///< NaN where not known
-  std::map<std::string, double> measures;  ///< by columns of results.csv: what methods may be compared by
+  std::map<std::string, double> measures;  ///< the columns below; NaN where not known
   std::vector<GenerationRow> trace;
   StepCurve curve;  ///< of the best fitness
 };
+
+/// Columns of results.csv that methods are compared by, the most telling first: where all runs have one
+/// objective, and where each would be its own judge.
+inline constexpr const char* kMeasuresOfOneObjective[] = {"unseen_fitness", "fitness"};
+inline constexpr const char* kMeasuresInCommon[] = {"unseen_iou", "iou", "tolerant_iou", "outline_iou"};
 
 /// What is compared: the optimiser, with the objective, space and start where these vary too.
 std::string method_of(const CsvTable& results, std::size_t row);

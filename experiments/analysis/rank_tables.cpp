@@ -139,10 +139,9 @@ CsvTable pair_table(const Names& methods, const BlockValues& blocks) {
 }  // namespace
 
 std::vector<std::string> ranked_measures(const Fits& fits) {
-  const bool one_objective = in_order(fits, &FinishedFit::objective).size() <= 1;
-  std::vector<std::string> measures = one_objective
-                                          ? Names{"unseen_fitness", "fitness"}
-                                          : Names{"unseen_iou", "iou", "tolerant_iou", "outline_iou"};
+  Names measures(std::begin(kMeasuresInCommon), std::end(kMeasuresInCommon));
+  if (in_order(fits, &FinishedFit::objective).size() <= 1)
+    measures.assign(std::begin(kMeasuresOfOneObjective), std::end(kMeasuresOfOneObjective));
   std::erase_if(measures, [&](const std::string& measure) { return !is_measured(fits, measure); });
   return measures;
 }

@@ -16,7 +16,7 @@ namespace {
 
 /// The names of the start points, the best first [summary.json]. The best of a search of the species space
 /// stands among them, which no plan holds.
-std::vector<std::string> start_names(const fs::path& summary_path) {
+std::vector<std::string> starts_best_first(const fs::path& summary_path) {
   try {
     auto starts = nlohmann::json::parse(read_file(summary_path)).at("starts");
     std::stable_sort(starts.begin(), starts.end(), [](const auto& a, const auto& b) {
@@ -37,7 +37,7 @@ Mask draw_best_start(const fs::path& directory) {
   FitTask task = make_task(record);
   const FitPlan plan = plan_of(record, task);
   settle_branches(plan, task);
-  for (const std::string& name : start_names(directory / "summary.json"))
+  for (const std::string& name : starts_best_first(directory / "summary.json"))
     for (const StartPoint& start : plan.starts)
       if (start.name == name) return draw_candidate(task, start.values, *task.make_renderer()).front();
   throw_input_error("{}: got no start point of the record's in summary.json, expected one",

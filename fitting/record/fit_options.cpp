@@ -276,8 +276,7 @@ std::vector<FitOption> options_of_the_start() {
        .member = [](FitRecord& record) -> std::string& { return record.start; },
        .check = check_start,
        .help = "auto (all presets), auto,-NAME (all but these), defaults, random:K (K plants that nobody "
-               "chose), or "
-               "presets: NAME,NAME",
+               "chose), or presets: NAME,NAME",
        .experiment_list = "starts"},
       {.field = "species",
        .key = "search.species",
@@ -316,8 +315,8 @@ std::vector<FitOption> options_of_the_plant() {
        .member = [](FitRecord& record) -> double& { return record.bare_wood_price; },
        .lower = 0,
        .upper = 100,
-       .help = "of leafy trees: what a crown that only wood covers costs, in fitness (0: a branch is as good "
-               "as a leaf)",
+       .help = "of leafy trees: what a crown that only wood covers costs, in fitness, and in the search wood "
+               "beyond the share that species have (0: a branch is as good as a leaf)",
        .since = "0.2",
        .before = 0.0},
       {.field = "depth_price",
@@ -326,9 +325,8 @@ std::vector<FitOption> options_of_the_plant() {
        .member = [](FitRecord& record) -> double& { return record.depth_price; },
        .lower = 0,
        .upper = 100,
-       .help = "of leafy trees in one view: what a plant costs, in fitness, that is e times flatter or "
-               "deeper than "
-               "species are (0: nothing)",
+       .help = "of leafy trees in one view: what a candidate of the search costs, in fitness, that is e "
+               "times flatter or deeper than species are (0: nothing)",
        .since = "0.2",
        .before = 0.0},
       {.field = "any_leaf_size",

@@ -1,7 +1,8 @@
 // Scores candidates by growing, drawing and comparing them: the mean dissimilarity over all plant seeds
-// and views, in [0, 1]. A candidate beyond the growth budget is not grown; it scores
-// 1 + log10(factor by which it exceeds the budget), worse than any tree and finite.
-// Parallel over (candidate, seed), reduced in index order: the same bits for any number of threads.
+// and views, with what the task takes for a plant as a whole (its depth, its share of wood), in [0, 1]. A
+// candidate beyond the growth budget is not grown; it scores 1 + log10(factor by which it exceeds the
+// budget), worse than any tree and finite. Parallel over (candidate, seed), reduced in index order: the same
+// bits for any number of threads.
 #pragma once
 #include <exception>
 #include <string>
