@@ -34,7 +34,7 @@ nlohmann::ordered_json identifiability_to_json(const IdentifiabilityReport& repo
 /// What the colours of the first picture say, and what is expected where they say nothing.
 nlohmann::ordered_json labels_to_json(const PlantLabels& labels, KindChoice kind) {
   const char* in_doubt = kind == KindChoice::leafy ? "leaves in the crown, as a leafy tree has them"
-                                                 : "wood or leaves, as the model grows them";
+                                                   : "wood or leaves, as the model grows them";
   if (labels.how.empty()) return {{"how", "not looked for"}, {"in_doubt", in_doubt}};
   return {
       {"leaf", labels.leaf_share}, {"wood", labels.wood_share}, {"how", labels.how}, {"in_doubt", in_doubt}};
