@@ -19,7 +19,7 @@ TEST(PublishedPages, HoldWhatTheirExperimentsAreExpectedToShow) {
       EXPECT_TRUE(checked.holds) << page.path().filename() << ": " << checked.expectation.text() << ", got "
                                  << checked.got;
   }
-  EXPECT_GE(checked_pages, 3) << "optimizers, ga_progress, growth";
+  EXPECT_GE(checked_pages, 4) << "closeness, optimizers, ga_progress, growth";
 }
 
 }  // namespace
