@@ -39,6 +39,11 @@ std::vector<double> spread_of_species(const ParameterTable& table, std::span<con
   return spread;
 }
 
+double reach_of_species(const ParameterTable& table, std::size_t row, const ParameterValues& species,
+                        std::span<const double> spread) {
+  return kShareOfSpread * spread[row] * size_of(table, row, species);
+}
+
 void keep_to_species(const ParameterTable& table, const ParameterValues& species,
                      std::span<const double> spread, SearchChoice& choice) {
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
@@ -48,7 +53,7 @@ void keep_to_species(const ParameterTable& table, const ParameterValues& species
       choice.fixed.insert({info.full_name(), species[row]});
       continue;
     }
-    const double reach = kShareOfSpread * spread[row] * size_of(table, row, species);
+    const double reach = reach_of_species(table, row, species, spread);
     choice.ranges[info.full_name()] = {std::max(info.lower, species[row] - reach),
                                        std::min(info.upper, species[row] + reach)};
   }

@@ -12,6 +12,10 @@ namespace espalier {
 /// Standard deviation of each row over these species; 0 for choices.
 std::vector<double> spread_of_species(const ParameterTable& table, std::span<const ParameterValues> species);
 
+/// Half of the spread of species, in the units of this row of a species' own values.
+double reach_of_species(const ParameterTable& table, std::size_t row, const ParameterValues& species,
+                        std::span<const double> spread);
+
 /// Half of the spread on both sides of the species' own values: closer to it than to most others. Choices,
 /// and what all species share, are fixed; the tree's size is left free. Added to `choice`, whose fixed values
 /// stay.

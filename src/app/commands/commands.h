@@ -20,6 +20,7 @@ void add_species_command(CLI::App& app);
 void add_lsystem_command(CLI::App& app);
 void add_space_command(CLI::App& app);
 void add_blend_command(CLI::App& app);
+void add_posterior_command(CLI::App& app);
 void add_params_command(CLI::App& app);
 void add_reference_command(CLI::App& app);
 void add_completion_command(CLI::App& app);

@@ -42,6 +42,7 @@ int run_program(int argc, const char* const* argv) {
   add_lsystem_command(app);
   add_space_command(app);
   add_blend_command(app);
+  add_posterior_command(app);
   add_params_command(app);
   add_reference_command(app);
   add_completion_command(app);

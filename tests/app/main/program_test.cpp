@@ -36,7 +36,7 @@ TEST(Program, HelpNamesEveryCommandAndExitsWith0) {
   const Ended ended = run({"--help"});
   EXPECT_EQ(ended.exit_code, 0);
   for (const char* command : {"fit", "target", "compare", "mask", "render", "mesh", "bench", "experiment",
-                              "species", "lsystem", "space", "blend", "params", "completion"})
+                              "species", "lsystem", "space", "blend", "posterior", "params", "completion"})
     EXPECT_THAT(ended.out, testing::HasSubstr(std::string("\n  ") + command));
 }
 

@@ -1,0 +1,136 @@
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <espalier/core/error.h>
+#include <espalier/fitting/posterior/posterior.h>
+
+namespace espalier {
+
+namespace {
+
+/// Share of the table that is near. Fewer are closer and their posterior is narrower, but it covers less than
+/// it says; experiments/posterior_calibration.md compares shares.
+constexpr double kNearShare = 0.16;
+
+Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+void check_table(const Eigen::MatrixXd& unknowns, const Eigen::MatrixXd& summaries) {
+  ESPALIER_CHECK_EQ(unknowns.rows(), summaries.rows());
+  if (static_cast<std::size_t>(unknowns.rows()) < kLeastTableSize)
+    throw_input_error("posterior: got {} simulations, expected {} or more", unknowns.rows(), kLeastTableSize);
+}
+
+struct Neighbours {
+  std::vector<std::size_t> rows;  ///< the closest first, ties in the table's order
+  Eigen::VectorXd weights;        ///< Epanechnikov's kernel, zero at the first row that is left out
+};
+
+Neighbours nearest(const Eigen::MatrixXd& points, const Eigen::RowVectorXd& point) {
+  const Eigen::VectorXd distances = (points.rowwise() - point).rowwise().squaredNorm();
+  const auto count = static_cast<std::size_t>(kNearShare * static_cast<double>(points.rows()));
+  Neighbours near;
+  near.rows.resize(static_cast<std::size_t>(points.rows()));
+  std::iota(near.rows.begin(), near.rows.end(), std::size_t{0});
+  const auto closer = [&](std::size_t a, std::size_t b) {
+    return distances[index(a)] != distances[index(b)] ? distances[index(a)] < distances[index(b)] : a < b;
+  };
+  std::partial_sort(near.rows.begin(), near.rows.begin() + static_cast<std::ptrdiff_t>(count) + 1,
+                    near.rows.end(), closer);
+  const double reach = distances[index(near.rows[count])];
+  near.rows.resize(count);
+  near.weights.resize(index(count));
+  for (std::size_t i = 0; i < count; ++i)
+    near.weights[index(i)] = reach > 0 ? 1 - distances[index(near.rows[i])] / reach : 1;
+  if (!(near.weights.sum() > 0)) near.weights.setOnes();  // all lie on one point
+  near.weights /= near.weights.sum();
+  return near;
+}
+
+Eigen::MatrixXd rows_of(const Eigen::MatrixXd& matrix, const std::vector<std::size_t>& rows) {
+  Eigen::MatrixXd chosen(index(rows.size()), matrix.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i) chosen.row(index(i)) = matrix.row(index(rows[i]));
+  return chosen;
+}
+
+/// Each draw's y, less what its offset from the picture makes of it: the offset times the slope of weighted least
+/// squares, with a trace of a ridge for components in which the neighbours do not differ.
+Eigen::MatrixXd adjusted(const Eigen::MatrixXd& offsets, const Eigen::VectorXd& weights,
+                         const Eigen::MatrixXd& y) {
+  constexpr double kTrace = 1e-6;
+  const Eigen::RowVectorXd mean_offset = weights.transpose() * offsets, mean_y = weights.transpose() * y;
+  const Eigen::MatrixXd x = offsets.rowwise() - mean_offset;
+  Eigen::MatrixXd normal = x.transpose() * weights.asDiagonal() * x;
+  normal.diagonal().array() += kTrace;
+  const Eigen::MatrixXd slopes =
+      normal.ldlt().solve(x.transpose() * weights.asDiagonal() * (y.rowwise() - mean_y));
+  return y - offsets * slopes;
+}
+
+}  // namespace
+
+PosteriorEstimator::PosteriorEstimator(const Eigen::MatrixXd& unknowns, const Eigen::MatrixXd& summaries)
+    : unknown_scores_of_((check_table(unknowns, summaries), unknowns)),
+      summary_scores_of_(summaries),
+      unknown_scores_(unknown_scores_of_.scores(unknowns)),
+      regression_(summary_scores_of_.scores(summaries), unknown_scores_),
+      predictions_(regression_.predict(summary_scores_of_.scores(summaries))) {}
+
+Posterior PosteriorEstimator::estimate(const std::vector<double>& summaries) const {
+  ESPALIER_CHECK_EQ(summaries.size(), summary_scores_of_.size());
+  const Eigen::MatrixXd observed =
+      Eigen::Map<const Eigen::RowVectorXd>(summaries.data(), index(summaries.size()));
+  const Eigen::RowVectorXd point = regression_.predict(summary_scores_of_.scores(observed));
+  const Neighbours near = nearest(predictions_, point);
+  const Eigen::MatrixXd offsets = rows_of(predictions_, near.rows).rowwise() - point;
+  Posterior posterior{near.rows, near.weights,
+                      adjusted(offsets, near.weights, rows_of(unknown_scores_, near.rows))};
+  for (Eigen::Index column = 0; column < posterior.unknowns.cols(); ++column)
+    for (double& score : posterior.unknowns.col(column))
+      score = unknown_scores_of_[static_cast<std::size_t>(column)].value(score);
+  return posterior;
+}
+
+double PosteriorEstimator::prior_quantile(std::size_t unknown, double share) const {
+  return unknown_scores_of_[unknown].value(normal_quantile(share));
+}
+
+double PosteriorEstimator::prior_share(std::size_t unknown, double value) const {
+  return normal_share(unknown_scores_of_[unknown].score(value));
+}
+
+double posterior_quantile(const Posterior& posterior, std::size_t unknown, double share) {
+  const auto values = posterior.unknowns.col(index(unknown));
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
+  double below = 0, last_middle = 0, last_value = values[order.front()];
+  for (const Eigen::Index i : order) {
+    const double middle = below + 0.5 * posterior.weights[i];
+    if (middle >= share) {
+      const double step = middle - last_middle;
+      return step > 0 ? std::lerp(last_value, values[i], (share - last_middle) / step) : values[i];
+    }
+    below += posterior.weights[i];
+    last_middle = middle;
+    last_value = values[i];
+  }
+  return last_value;
+}
+
+std::vector<std::size_t> equal_draws(const Posterior& posterior, std::size_t count) {
+  std::vector<std::size_t> rows;
+  rows.reserve(count);
+  double reached = posterior.weights[0];
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    while (reached < share && row + 1 < posterior.draws.size()) reached += posterior.weights[index(++row)];
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace espalier

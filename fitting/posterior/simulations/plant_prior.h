@@ -1,0 +1,45 @@
+// What is held likely of a plant before its picture is seen: a bundled species, each the same, whose free
+// parameters are moved by half of what species differ among themselves, and random numbers of its own. Moves
+// are normal and end at the searched ranges, where they are reflected. The tree's size is left out: a picture
+// has no metres.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <espalier/core/random.h>
+#include <espalier/models/preset.h>
+#include <espalier/plant/model.h>
+
+namespace espalier {
+
+struct PlantDraw {
+  std::size_t species = 0;  ///< index of PlantPrior::species()
+  ParameterValues values;
+  Seed seed = 0;  ///< of the plant's own random numbers
+};
+
+class PlantPrior {
+ public:
+  /// The bundled species of `model`, which is not owned. Throws InputError where it has fewer than two.
+  explicit PlantPrior(const Model& model);
+
+  const Model& model() const { return *model_; }
+  const std::vector<Preset>& species() const { return species_; }
+  /// Rows of the model's table that differ between draws beyond what the species' choices make of them.
+  const std::vector<std::size_t>& rows() const { return rows_; }
+  /// The same key draws the same plant.
+  PlantDraw draw(RandomKey key) const;
+  /// Differs where any draw may.
+  std::uint64_t fingerprint() const;
+
+ private:
+  double moved(std::size_t row, const ParameterValues& species, double steps) const;
+
+  const Model* model_;
+  std::vector<Preset> species_;
+  std::vector<double> spread_;
+  std::vector<std::size_t> rows_;
+};
+
+}  // namespace espalier

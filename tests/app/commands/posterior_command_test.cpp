@@ -1,0 +1,47 @@
+// `espalier posterior`: what it prints, and bad input.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "support/run_espalier.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+TEST(PosteriorCommand, PrintsQuantitiesWithIntervals) {
+  const std::string out = (fresh_folder("posterior_command") / "run").string();
+  const std::string picture = std::string(ESPALIER_SOURCE_DIR) + "/targets/fir.png";
+  const ProgramRun good =
+      run_espalier("posterior '" + picture + "' --simulations 2000 --height 8 --out " + out);
+  ASSERT_EQ(good.exit_code, 0) << good.err;
+  for (const char* name :
+       {"crown_volume", "leaf_area", "wood_volume", "trunk_radius", "near species: ", "parameters: "})
+    EXPECT_THAT(good.out, HasSubstr(name));
+  EXPECT_TRUE(fs::exists(out + "/parameters.svg"));
+}
+
+TEST(PosteriorCommand, BadInputIsOneLineAndLeavesNothing) {
+  const fs::path folder = fresh_folder("posterior_bad");
+  const std::string picture = std::string(ESPALIER_SOURCE_DIR) + "/targets/fir.png",
+                    out = (folder / "run").string();
+  fs::create_directories(folder / "other" / "mine");
+  for (const std::string& arguments :
+       {"'" + picture + "' --simulations 100", "'" + picture + "' --height 0",
+        "'" + picture + "' --height nan", std::string("nothing.png"),
+        "'" + picture + "' --table '" + picture + "'", "'" + picture + "' --samples 0"}) {
+    const ProgramRun run = run_espalier("posterior " + arguments + " --out " + out);
+    EXPECT_EQ(run.exit_code, 2) << arguments;
+    EXPECT_THAT(run.err, testing::MatchesRegex("espalier: [^\n]+\n")) << arguments;
+    EXPECT_FALSE(fs::exists(out + "/posterior.json"));
+  }
+  const ProgramRun taken = run_espalier("posterior '" + picture + "' --out " + (folder / "other").string());
+  EXPECT_EQ(taken.exit_code, 2);
+  EXPECT_THAT(taken.err, HasSubstr("holds other things"));
+}
+
+}  // namespace
+}  // namespace espalier
