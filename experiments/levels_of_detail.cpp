@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include <espalier/core/error.h>
-#include <espalier/fitting/identifiability/rank_correlation.h>
+#include <espalier/experiments/statistics/rank_correlation.h>
 #include <espalier/fitting/optimizers/random_stream.h>
 #include <espalier/fitting/search/fit_objective.h>
 #include <espalier/fitting/task/plant_scorer.h>

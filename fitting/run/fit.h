@@ -48,7 +48,6 @@ struct FitResult {
   std::string best_start;
   std::size_t dimension = 0;
   CandidateFailures failures = {};  ///< since the run began or was resumed
-  std::string identifiability;      ///< in words; empty where it was not measured
 };
 
 /// Runs the fit. All input is checked before `directory` is made. Throws InputError, for the record, its

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <espalier/fitting/identifiability/identifiability_files.h>
 #include <espalier/fitting/run/fit_run.h>
 
 namespace espalier {
@@ -148,9 +147,7 @@ FitResult FitRun::finish() {
           .stopped_by = *state_.stopped_by,
           .best_start = best_start->name,
           .dimension = dimension_,
-          .failures = state_.failures,
-          .identifiability =
-              state_.archive ? identifiability_in_words(state_.identifiability, *state_.archive) : ""};
+          .failures = state_.failures};
 }
 
 FitResult FitRun::run(const std::optional<SpeciesSpace>& species) {
@@ -162,7 +159,6 @@ FitResult FitRun::run(const std::optional<SpeciesSpace>& species) {
     search(starts, scores);
   else
     begin_from_best(starts, scores);
-  identify_parameters();
   if (will_refine()) refine();
   return finish();
 }

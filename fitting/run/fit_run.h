@@ -60,7 +60,6 @@ class FitRun : public Observer {
   void search(const std::vector<StartPoint>& starts, const std::vector<double>& scores);
   void begin_from_best(const std::vector<StartPoint>& starts, const std::vector<double>& scores);
   bool search_time_is_over() const;
-  void identify_parameters();
   void warn_over_budget(const std::string& start, double factor) const;
   void portray_best();
 

@@ -1,4 +1,4 @@
-// The stages of a run before branches: starts, the species space, parameters, and how sure they are.
+// The stages of a run before branches: starts, the species space, parameters.
 #include <algorithm>
 #include <numeric>
 
@@ -10,9 +10,8 @@ namespace espalier {
 
 namespace {
 
-constexpr std::size_t kStartBatch = 8;      ///< start points scored between two looks at the clock
-constexpr std::size_t kMostStarts = 3;      ///< of the best, given to the optimiser
-constexpr long kIdentifiabilityShare = 10;  ///< one evaluation to so many of the search tells how sure it is
+constexpr std::size_t kStartBatch = 8;  ///< start points scored between two looks at the clock
+constexpr std::size_t kMostStarts = 3;  ///< of the best, given to the optimiser
 
 }  // namespace
 
@@ -118,13 +117,6 @@ void FitRun::begin_from_best(const std::vector<StartPoint>& starts, const std::v
   const auto best = static_cast<std::size_t>(std::min_element(scores.begin(), scores.end()) - scores.begin());
   if (!starts[best].overrides.empty()) given_overrides_ = starts[best].overrides;
   if (!state_.stopped_by) state_.stopped_by = FitStop::stages;
-}
-
-/// From the search alone, so that it comes out the same when the run is resumed.
-void FitRun::identify_parameters() {
-  if (!state_.archive || state_.stopped_by == FitStop::interrupted) return;
-  state_.identifiability = measure_identifiability(
-      *state_.archive, plant_scorer_, scorer_.evaluations() / kIdentifiabilityShare, record_.seed);
 }
 
 }  // namespace espalier

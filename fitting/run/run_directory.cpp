@@ -3,7 +3,6 @@
 
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
-#include <espalier/fitting/identifiability/identifiability_files.h>
 #include <espalier/fitting/run/run_directory.h>
 #include <espalier/fitting/run/run_summary.h>
 #include <espalier/image/pictures/picture.h>
@@ -199,7 +198,6 @@ void write_run_directory(const fs::path& directory, RunState& state) {
   write_history(directory, state);
   write_archive(directory, state);
   if (state.sheet) write_png(directory / "tree.png", *state.sheet);
-  if (state.archive) write_identifiability(directory, state.identifiability, *state.archive);
   write_file_atomically(directory / "summary.json", run_summary(state));
   write_file_atomically(directory / "run.toml", record_to_toml(state.record, outcome_of(state)));
 }

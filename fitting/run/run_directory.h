@@ -7,11 +7,11 @@
 #include <vector>
 
 #include <espalier/fitting/branches/branch_rounds.h>
-#include <espalier/fitting/identifiability/identifiability.h>
 #include <espalier/fitting/record/fit_record.h>
 #include <espalier/fitting/run/full_size.h>
 #include <espalier/fitting/run/plant_portrait.h>
 #include <espalier/fitting/search/logged_scorer.h>
+#include <espalier/fitting/search/solution_archive.h>
 #include <espalier/fitting/search/trace.h>
 #include <espalier/fitting/species_space/resemblance.h>
 #include <espalier/fitting/task/fit_task.h>
@@ -43,7 +43,6 @@ struct RunState {
   std::size_t embree_disagreement_px = 0;
   CandidateFailures failures = {};              ///< since the run began or was resumed
   std::optional<SolutionArchive> archive = {};  ///< of the search of the parameters, once it begins
-  IdentifiabilityReport identifiability = {};   ///< after it
   std::optional<PlantPortrait> portrait = {};   ///< of the best plant, once the run ends
   std::optional<Picture> sheet = {};            ///< likewise
   std::vector<Resemblance> resemblances = {};   ///< likewise

@@ -20,17 +20,6 @@ nlohmann::ordered_json archive_to_json(const SolutionArchive& archive) {
   return rows;
 }
 
-nlohmann::ordered_json identifiability_to_json(const IdentifiabilityReport& report) {
-  nlohmann::ordered_json json = {{"tolerance", report.tolerance}, {"evaluations", report.evaluations}};
-  for (const Identifiability identifiability : {Identifiability::determined, Identifiability::partly,
-                                                Identifiability::open, Identifiability::no_effect}) {
-    auto& names = json[identifiability_name(identifiability)] = nlohmann::ordered_json::array();
-    for (const ParameterIdentifiability& row : report.parameters)
-      if (row.identifiability == identifiability) names.push_back(row.parameter.name);
-  }
-  return json;
-}
-
 /// What the colours of the first picture say, and what is expected where they say nothing.
 nlohmann::ordered_json labels_to_json(const PlantLabels& labels, KindChoice kind) {
   const char* in_doubt = kind == KindChoice::leafy ? "leaves in the crown, as a leafy tree has them"
@@ -96,8 +85,6 @@ std::string run_summary(const RunState& state) {
   for (const ViewRecord& view : state.record.views) summary["pictures"].push_back(view.picture.string());
   if (!state.task.warnings.empty()) summary["warnings"] = state.task.warnings;
   if (state.archive) summary["archive"] = archive_to_json(*state.archive);
-  if (!state.identifiability.parameters.empty())
-    summary["parameters"] = identifiability_to_json(state.identifiability);
   for (const ScoredStart& start : state.starts)
     summary["starts"].push_back({{"name", start.name}, {"fitness", start.fitness}});
   return summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

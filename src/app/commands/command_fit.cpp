@@ -160,7 +160,6 @@ void print_result(const FitResult& result, const FitRecord& record, const fs::pa
         "wood\n",
         result.resemblances[0].species, result.resemblances[0].departure, result.resemblances[1].species,
         result.resemblances[1].departure, 100 * result.portrait->visible_wood);
-  if (!result.identifiability.empty()) fmt::print("{}\n", result.identifiability);
   fmt::print("files: {} (best.toml, best.png, overlay.png, convergence.png, summary.json)\n",
              directory.string());
 }
@@ -193,7 +192,7 @@ void add_run_options(CLI::App& command, FitArguments& arguments) {
   CLI::Option* out = command.add_option(
       "--out", arguments.out,
       "directory to make (default: runs/IMAGE-SEED); there, best.toml is the tree, archive/ holds others "
-      "nearly as good, parameters.svg says which parameters the picture determines");
+      "nearly as good");
   command.add_option("--threads", arguments.threads, "0: one per processor; changes the speed only")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

@@ -32,6 +32,8 @@ std::vector<std::string> readme_commands() {
 std::string shortened(std::string command) {
   command = std::regex_replace(command, std::regex("^\\./espalier"), ESPALIER_PROGRAM);
   command = std::regex_replace(command, std::regex("--seconds [0-9]+"), "--evaluations 45 --branch-rounds 1");
+  command =
+      std::regex_replace(command, std::regex("espalier posterior"), "espalier posterior --simulations 2000");
   command = std::regex_replace(command, std::regex("--evaluations 300"), "--evaluations 45");
   command = std::regex_replace(command, std::regex("--grid 7x7"), "--grid 2x2");
   return std::regex_replace(command, std::regex("--evaluations 600"), "--evaluations 60");

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <espalier/fitting/identifiability/solution_archive.h>
+#include <espalier/fitting/search/solution_archive.h>
 
 namespace espalier {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include <espalier/fitting/identifiability/solution_archive.h>
 #include <espalier/fitting/optimizers/random_stream.h>
+#include <espalier/fitting/search/solution_archive.h>
 
 namespace espalier {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <espalier/core/error.h>
-#include <espalier/fitting/identifiability/rank_correlation.h>
+#include <espalier/experiments/statistics/rank_correlation.h>
 
 namespace espalier {
 namespace {
