@@ -48,12 +48,19 @@ void load_folder(const fs::path& given, std::vector<Preset>& presets) {
                       kBest);
 }
 
+std::vector<Preset> load_bundled() {
+  std::vector<Preset> presets;
+  for (const std::string& name : bundled_presets()) presets.push_back(load_preset(name));
+  return presets;
+}
+
 }  // namespace
 
 std::vector<Preset> load_presets(const std::vector<std::string>& names) {
-  std::vector<Preset> presets;
+  std::vector<Preset> presets = names.empty() ? load_bundled() : std::vector<Preset>{};
+  std::erase_if(presets, [](const Preset& preset) { return preset.demonstration; });
   std::error_code ignored;
-  for (const std::string& name : names.empty() ? bundled_presets() : names)
+  for (const std::string& name : names)
     if (fs::is_directory(name, ignored))
       load_folder(name, presets);
     else
@@ -62,7 +69,7 @@ std::vector<Preset> load_presets(const std::vector<std::string>& names) {
 }
 
 std::vector<Preset> bundled_species(const std::string& model) {
-  std::vector<Preset> presets = load_presets({});
+  std::vector<Preset> presets = load_bundled();
   std::erase_if(presets, [&](const Preset& preset) { return preset.model != model; });
   return presets;
 }

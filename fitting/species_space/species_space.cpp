@@ -118,7 +118,8 @@ SpeciesSpace make_species_space(std::span<const Preset> presets, const std::stri
   }
   space.pca = principal_components(numbers, means, components);
   for (const Preset& preset : presets)
-    space.species.push_back({preset.name, preset.values, coordinates_of(space, preset.values)});
+    space.species.push_back(
+        {preset.name, preset.values, coordinates_of(space, preset.values), preset.demonstration});
   return space;
 }
 

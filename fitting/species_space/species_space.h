@@ -21,6 +21,7 @@ struct SpeciesPoint {
   std::string name;
   ParameterValues values;
   Eigen::VectorXd coordinates;
+  bool demonstration = false;  ///< no species: it has no vote on choices (choice_votes.h)
 };
 
 struct SpeciesSpace {

@@ -71,6 +71,12 @@ struct SpaceReader {
     }
     return numbers;
   }
+  /// False where it is not there.
+  bool flag(std::string_view key) const {
+    if (!table.contains(key)) return false;
+    if (const auto value = table[key].value_exact<bool>()) return *value;
+    fail(key, "true or false");
+  }
   /// Throws unless the array holds these names in this order.
   template <typename Named>
   void check_names(std::string_view key, const std::vector<Named>& all,
@@ -92,6 +98,7 @@ SpeciesPoint read_species(const SpaceReader& reader, const ParameterTable& table
     check_value(table.rows[row], species.values[row], toml_location(reader.source, reader.array("values")));
   }
   species.coordinates = reader.numbers("coordinates", static_cast<std::size_t>(dimension));
+  species.demonstration = reader.flag("demonstration");
   return species;
 }
 
@@ -126,7 +133,8 @@ std::string species_space_to_toml(const SpeciesSpace& space) {
     text += fmt::format("  {},\n", numbers_to_toml(Eigen::VectorXd(pca.components.row(i))));
   text += "]\n";
   for (const SpeciesPoint& species : space.species)
-    text += fmt::format("\n[[species]]\nname = {}\ncoordinates = {}\nvalues = {}\n", quote_toml(species.name),
+    text += fmt::format("\n[[species]]\nname = {}\n{}coordinates = {}\nvalues = {}\n",
+                        quote_toml(species.name), species.demonstration ? "demonstration = true\n" : "",
                         numbers_to_toml(species.coordinates), numbers_to_toml(species.values));
   return text;
 }

@@ -13,8 +13,8 @@ namespace espalier {
 
 namespace {
 
-const std::vector<std::string> kPresetKeys = {"name", "description", "model",  "extends",
-                                              "seed", "branch",      "shared", kGrownIntoKey};
+const std::vector<std::string> kPresetKeys = {"name",   "description", "model",       "extends",      "seed",
+                                              "branch", "shared",      kGrownIntoKey, "demonstration"};
 
 /// The text under a key of the preset itself, if it is there.
 std::optional<std::string> read_text(const toml::table& document, const std::string& source,
@@ -32,6 +32,14 @@ std::optional<Seed> read_seed(const toml::table& document, const std::string& so
   // TOML has no whole numbers above 2^63 - 1: larger seeds are negative, as in run.toml.
   if (const auto seed = node->value_exact<std::int64_t>()) return static_cast<Seed>(*seed);
   throw_input_error("{}: key 'seed': got {}, expected a whole number", toml_location(source, *node),
+                    describe_toml(*node));
+}
+
+bool read_demonstration(const toml::table& document, const std::string& source) {
+  const toml::node* node = document.get("demonstration");
+  if (!node) return false;
+  if (const auto is_one = node->value_exact<bool>()) return *is_one;
+  throw_input_error("{}: key 'demonstration': got {}, expected true or false", toml_location(source, *node),
                     describe_toml(*node));
 }
 
@@ -135,6 +143,7 @@ Preset load_chain(const PresetSource& source, Chain& chain) {
   preset.name = read_text(document, source.label, "name").value_or(source.name);
   preset.description = read_text(document, source.label, "description").value_or(preset.description);
   if (const auto seed = read_seed(document, source.label)) preset.seed = seed;
+  preset.demonstration = read_demonstration(document, source.label);  // what extends one need not be one
   const Model& model = model_by_name(preset.model);
   read_parameters(document, source.label, model.table(), kPresetKeys, preset.values);
   read_overrides({document, source.label}, preset.overrides);

@@ -20,6 +20,7 @@ struct Preset {
   Overrides overrides = {};                ///< of single branches
   std::vector<GrownInto> grown_into = {};  ///< pictures whose outlines the tree stays inside of
   std::optional<Seed> seed = {};           ///< of the one tree it stands for; none: of a species
+  bool demonstration = false;              ///< shows what the model can do, and is no species
 };
 
 /// Names of the bundled presets, sorted.

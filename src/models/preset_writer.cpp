@@ -45,6 +45,7 @@ std::string preset_to_toml(const Preset& preset, const ParameterTable& table) {
   if (preset.seed)
     text += fmt::format("{:<36}  # of the tree that was fitted\n",
                         fmt::format("seed = {}", static_cast<std::int64_t>(*preset.seed)));
+  if (preset.demonstration) text += "demonstration = true\n";
   text += "\n";
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     if (i == 0 || table.rows[i].name != table.rows[i - 1].name)

@@ -96,10 +96,12 @@ TEST(Preset, WritingAndReadingKeepsEveryBit) {
   EXPECT_TRUE(rc::check([&] {
     Preset preset{"a \"name\"", "tab\t, back\\slash, line\nfeed, ü", "weber_penn", {}};
     for (const ParameterInfo& row : table.rows) preset.values.push_back(*valid_value(row));
+    preset.demonstration = *rc::gen::arbitrary<bool>();
     if (*rc::gen::arbitrary<bool>()) preset.seed = *rc::gen::element<Seed>(0, 7, Seed{1} << 63, ~Seed{0});
     const Preset again = load_preset(folder.write("random.toml", preset_to_toml(preset)));
     RC_ASSERT(again.name == preset.name);
     RC_ASSERT(again.seed == preset.seed);
+    RC_ASSERT(again.demonstration == preset.demonstration);
     RC_ASSERT(again.description == preset.description);
     for (std::size_t i = 0; i < preset.values.size(); ++i)
       RC_ASSERT(std::bit_cast<std::uint64_t>(again.values[i]) ==
@@ -129,6 +131,32 @@ TEST(Preset, ASeedThatIsNoneIsRefused) {
       FAIL() << seed;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr("seed.toml:2: key 'seed': got "));
+    }
+  }
+}
+
+TEST(Preset, OfTheBundledOnesTheSphereTreeAloneIsNoSpecies) {
+  for (const std::string& name : bundled_presets())
+    EXPECT_EQ(load_preset(name).demonstration, name == "sphere_tree") << name;
+}
+
+TEST(Preset, WhatExtendsADemonstrationMayBeASpecies) {
+  const PresetFolder folder;
+  const std::string mine = folder.write("mine.toml", "extends = \"sphere_tree\"\n");
+  EXPECT_FALSE(load_preset(mine).demonstration);
+  EXPECT_EQ(load_preset(mine).values, load_preset("sphere_tree").values);
+}
+
+TEST(Preset, ADemonstrationThatIsNeitherTrueNorFalseIsRefused) {
+  const PresetFolder folder;
+  for (const char* value : {"1", "\"true\"", "[true]"}) {
+    const std::string text = fmt::format("model = \"weber_penn\"\ndemonstration = {}\n", value);
+    try {
+      load_preset(folder.write("wrong.toml", text));
+      FAIL() << value;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("wrong.toml:2: key 'demonstration': got "));
+      EXPECT_THAT(error.what(), testing::HasSubstr("expected true or false"));
     }
   }
 }

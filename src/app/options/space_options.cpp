@@ -11,7 +11,7 @@ void add_space_options(CLI::App& command, SpaceOptions& options) {
   CLI::Option* presets = command
                              .add_option("--presets", options.presets,
                                          "presets, folders of them, runs or folders of runs: A,B,… (default: "
-                                         "the bundled presets)")
+                                         "the bundled species)")
                              ->delimiter(',')
                              ->allow_extra_args(false);
   command.add_option("--encoding", options.encoding, "monotone, or raw: the parameter list as it is")

@@ -77,7 +77,7 @@ TEST(BlendCommand, BadInputIsOneLineAndWritesNothing) {
       {"--at 1e999,0" + to, "expected finite numbers"},
       {"--at 1,2", "expected a TOML file"},
       {"palm acer --at 1,2" + to, "--at: got presets"},
-      {"--at 0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0" + to, "--components: got 19, expected 1 … 18"},
+      {"--at 0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0" + to, "--components: got 19, expected 1 … 17"},
       {"palm acer --t 2" + to, "--t: got 2, expected a number 0 … 1"},
       {"palm acer --t half" + to, "--t: got 'half'"},
       {"palm acer" + to, "expected --t"},

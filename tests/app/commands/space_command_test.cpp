@@ -29,11 +29,19 @@ void write_preset(const fs::path& file, const std::string& text) {
 TEST(SpaceCommand, PrintsWhatIsExplainedAndWhatIsLeftOut) {
   const ProgramRun run = run_espalier("space");
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, StartsWith("19 presets of weber_penn, encoding monotone, 2 of 18 components\n"));
+  EXPECT_THAT(run.out, StartsWith("18 presets of weber_penn, encoding monotone, 2 of 17 components\n"));
   EXPECT_THAT(run.out, HasSubstr("of the variance"));
   EXPECT_THAT(run.out, HasSubstr("\nquaking_aspen "));
   EXPECT_THAT(run.out, HasSubstr("least well held:"));
   EXPECT_THAT(run.out, HasSubstr("the same in all, carried as they are: "));
+}
+
+TEST(SpaceCommand, ADemonstrationIsOnTheMapOnlyByName) {
+  EXPECT_THAT(run_espalier("space").out, testing::Not(HasSubstr("sphere_tree")));
+  const ProgramRun named = run_espalier("space --components 1 --presets palm,acer,sphere_tree");
+  EXPECT_EQ(named.exit_code, 0) << named.err;
+  EXPECT_THAT(named.out, StartsWith("3 presets"));
+  EXPECT_THAT(named.out, HasSubstr("\nsphere_tree "));
 }
 
 TEST(SpaceCommand, DrawsTheMapAsSvgAndPng) {
@@ -88,7 +96,7 @@ TEST(SpaceCommand, BadInputIsOneLine) {
       {"--presets " + path_in("other"), "got model 'lsystem'"},
       {"--presets " + path_in("empty"), "without presets"},
       {"--presets nowhere,palm", "got preset 'nowhere'"},
-      {"--components 19", "--components: got 19, expected 1 … 18"},
+      {"--components 18", "--components: got 18, expected 1 … 17"},
       {"--components 0", "--components"},
       {"--components two", "--components"},
       {"--encoding log", "got 'log', expected raw or monotone"},
