@@ -26,15 +26,7 @@ void deepen(const Model& model, ParameterValues& a, ParameterValues& b) {
   b = model.deepened(b, levels);
 }
 
-/// Magnitudes that are all zero say nothing about their side: it is the other plant's.
-bool is_nothing(const Encoding& encoding, const EncodedValues& plant, std::size_t row) {
-  bool nothing = true;
-  for (std::size_t column = 0; column < plant.numbers.size(); ++column)
-    if (encoding.columns()[column].row == row)
-      nothing = nothing && (plant.numbers[column] == 0 || !plant.means[column]);
-  return nothing && encoding.table().rows[row].sign == SignMeaning::flag;
-}
-
+/// A side that says nothing is the other plant's.
 double choose(const Encoding& encoding, const EncodedValues& a, const EncodedValues& b, std::size_t choice,
               double t) {
   const std::size_t row = encoding.choices()[choice].row;

@@ -12,6 +12,14 @@ std::unique_ptr<Encoding> make_encoding(const std::string& name, const Parameter
   throw_input_error("encoding: got '{}', expected raw or monotone", name);
 }
 
+bool is_nothing(const Encoding& encoding, const EncodedValues& plant, std::size_t row) {
+  if (encoding.table().rows[row].sign != SignMeaning::flag) return false;
+  for (std::size_t column = 0; column < plant.numbers.size(); ++column)
+    if (encoding.columns()[column].row == row && plant.numbers[column] != 0 && plant.means[column])
+      return false;
+  return true;
+}
+
 double valid_value(const ParameterInfo& row, double value, std::vector<ClampedValue>& clamped) {
   const double wanted = std::isnan(value) ? row.default_value : value;
   const double inside = std::clamp(wanted, row.lower, row.upper);

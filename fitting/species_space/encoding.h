@@ -65,6 +65,10 @@ std::unique_ptr<Encoding> make_encoding(const std::string& name, const Parameter
 std::unique_ptr<Encoding> make_raw_encoding(const ParameterTable& table);
 std::unique_ptr<Encoding> make_monotone_encoding(const ParameterTable& table);
 
+/// Whether the magnitudes of a row with a side are all zero, or mean nothing to this plant: then they say
+/// nothing about the side.
+bool is_nothing(const Encoding& encoding, const EncodedValues& plant, std::size_t row);
+
 /// The nearest valid value of a row. Notes it in `clamped` where `value` is outside the bounds by more than
 /// rounding.
 double valid_value(const ParameterInfo& row, double value, std::vector<ClampedValue>& clamped);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include <espalier/core/error.h>
+#include <espalier/fitting/species_space/choice_votes.h>
 #include <espalier/fitting/species_space/convex_hull.h>
 #include <espalier/fitting/species_space/species_space.h>
 #include <espalier/models/models.h>
@@ -130,9 +131,10 @@ Eigen::VectorXd coordinates_of(const SpeciesSpace& space, const ParameterValues&
 PlantAtPoint plant_at(const SpeciesSpace& space, const Eigen::VectorXd& coordinates) {
   ESPALIER_CHECK_EQ(coordinates.size(), static_cast<Index>(space.dimension()));
   const SpeciesPoint& nearest = space.species[nearest_species(space, coordinates)];
-  return finish_plant(
-      space, coordinates, nearest.name,
-      decode_in_range(space, space.encoding->encode(nearest.values), reconstruct(space.pca, coordinates)));
+  EncodedValues encoded = space.encoding->encode(nearest.values);
+  encoded.choices = voted_choices(space, coordinates);
+  return finish_plant(space, coordinates, nearest.name,
+                      decode_in_range(space, std::move(encoded), reconstruct(space.pca, coordinates)));
 }
 
 PlantAtPoint plant_moved_to(const SpeciesSpace& space, const ParameterValues& values,

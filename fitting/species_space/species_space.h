@@ -1,7 +1,7 @@
 // The species space: presets as points of a plane (or of more dimensions), by principal components of their
 // encoded values [CH §3.3.1]. A point of it is a plant: the mean, plus its coordinates times the components,
-// with the choices of the nearest species. What the plane leaves out of each species is measured, never
-// hidden.
+// with the choices that the species vote for (choice_votes.h). What the plane leaves out of each species is
+// measured, never hidden.
 #pragma once
 #include <Eigen/Core>
 #include <memory>
@@ -44,7 +44,7 @@ Eigen::VectorXd coordinates_of(const SpeciesSpace& space, const ParameterValues&
 struct PlantAtPoint {
   ParameterValues values;             ///< valid
   std::vector<ClampedValue> clamped;  ///< of the values that mean something to this plant
-  std::string nearest;                ///< the species whose choices it has
+  std::string nearest;                ///< species
   double outside = 0;  ///< distance to the convex hull of the species, in units of the coordinates
 };
 
