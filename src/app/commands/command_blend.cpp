@@ -14,6 +14,7 @@
 #include <espalier/app/options/view_options.h>
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
+#include <espalier/fitting/record/fit_record.h>
 #include <espalier/fitting/species_pictures/blend_strip.h>
 #include <espalier/fitting/species_pictures/plant_pictures.h>
 #include <espalier/fitting/species_pictures/space_plant.h>
@@ -89,29 +90,44 @@ void write_blend(const BlendOptions& options) {
              pair.b.name, encoding->name(), values == blended ? "" : "; thinned to the growth budget");
 }
 
+/// What had to be done to a plant that was too large, and how large it would have been.
+std::string kept_to_budget(const GrowingPlant& plant, const GrowthBudget& budget,
+                           const GrowthEstimate& wanted) {
+  const std::string done = plant.moved_by > 0
+                               ? fmt::format("moved {:.3g} of the way to {}", plant.moved_by, plant.nearest)
+                               : "thinned";
+  const std::string size = wanted.is_known
+                               ? fmt::format("{:.0f} stems and {:.0f} leaves", wanted.stems, wanted.leaves)
+                               : "more stems or leaves than any plant may have";
+  return fmt::format(
+      "{} to the growth budget of a fit, {:.0f} stems and {:.0f} leaves: it would have had {}\n", done,
+      budget.max_stems, budget.max_leaves, size);
+}
+
 void print_plant(const BlendOptions& options, const GrowingPlant& plant) {
-  fmt::print("{}: point {}, choices of {}\n", options.output, options.at, plant.nearest);
+  fmt::print("{}: point {}, near {}, choices by the species' votes\n", options.output, options.at,
+             plant.nearest);
   if (plant.outside > 0)
     fmt::print("{:.3g} outside the convex hull of the species\n", plant.outside);
   else
     fmt::print("inside the convex hull of the species\n");
   for (const ClampedValue& clamped : plant.clamped)
     fmt::print("clamped: {} from {:.6g} to {:.6g}\n", clamped.parameter, clamped.wanted, clamped.got);
-  if (plant.moved_by > 0)
-    fmt::print("moved {:.3g} of the way to {}, to fit the growth budget\n", plant.moved_by, plant.nearest);
-  if (plant.thinned) fmt::print("thinned to the growth budget\n");
 }
 
 void write_point(const BlendOptions& options) {
   const Eigen::VectorXd point = parse_point(options.at);
   const SpeciesSpace space = load_space(options.space, static_cast<int>(point.size()));
-  const GrowingPlant plant = growing_plant_at(space, point, {}, options.seed);
+  const GrowthBudget budget = FitRecord{}.growth;
+  const GrowingPlant plant = growing_plant_at(space, point, budget, options.seed);
   write_file_atomically(options.output,
                         preset_to_toml({std::filesystem::path(options.output).stem().string(),
                                         fmt::format("point {} of a species space of {} presets, encoding {}",
                                                     options.at, space.species.size(), space.encoding->name()),
                                         space.model->table().model, plant.values}));
   print_plant(options, plant);
+  if (plant.thinned || plant.moved_by > 0)
+    fmt::print("{}", kept_to_budget(plant, budget, wanted_size(space, plant, options.seed)));
 }
 
 std::vector<PlantTile> tiles_of(const Pair& pair, const std::string& encoding, int count,
@@ -190,7 +206,9 @@ void add_blend_command(CLI::App& app) {
   command->add_option("--tile", options->tile_px, "side of a tree of a picture, px")
       ->check(CLI::Range(16, 2048))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "seed of the trees of pictures")
+  command
+      ->add_option("--seed", options->seed,
+                   "seed of the trees of pictures, and of the one that a growth budget is kept to")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->callback([options] { run_blend(*options); });

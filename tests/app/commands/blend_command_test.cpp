@@ -5,7 +5,9 @@
 
 #include <filesystem>
 
+#include <espalier/fitting/record/fit_record.h>
 #include <espalier/image/pictures/decode.h>
+#include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 
 #include "support/run_espalier.h"
@@ -48,6 +50,18 @@ TEST(BlendCommand, SaysWhereAPointLiesAndWhatWasClamped) {
   EXPECT_THAT(outside.out, HasSubstr("outside the convex hull"));
   EXPECT_THAT(outside.out, HasSubstr("\nclamped: "));
   EXPECT_EQ(run_espalier("species --check " + path_in("outside.toml")).exit_code, 0);
+}
+
+TEST(BlendCommand, APointKeepsToTheBudgetOfAFitAndSaysHowLargeItWouldHaveBeen) {
+  const ProgramRun run = run_espalier("blend --at 0.8,-1.2 -o " + path_in("thinned.toml"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("\nthinned to the growth budget of a fit, 6000 stems and 60000 leaves: it "
+                                 "would have had "));
+  const Preset preset = load_preset(path_in("thinned.toml"));
+  const GrowthBudget of_a_fit = FitRecord{}.growth;
+  Plant plant;
+  EXPECT_TRUE(model_by_name(preset.model).generate(preset.values, 1, {of_a_fit}, plant).grown);
+  EXPECT_GT(plant.leaves.size(), 6'000u);  // no more than it must
 }
 
 TEST(BlendCommand, APointMayHaveAnyNumberOfCoordinates) {

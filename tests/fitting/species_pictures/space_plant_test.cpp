@@ -40,6 +40,21 @@ TEST(SpacePlant, APointThatFitsTheBudgetIsLeftAsItIs) {
   EXPECT_FALSE(plant.thinned);
   EXPECT_EQ(plant.moved_by, 0);
   EXPECT_EQ(plant.values, plant_at(space, Eigen::Vector2d(0.8, -1.2)).values);
+  EXPECT_EQ(plant.wanted, plant.values);
+}
+
+TEST(SpacePlant, SaysHowLargeAThinnedPlantWouldHaveBeen) {
+  const SpeciesSpace space = make_species_space(load_presets({}), "monotone", 2);
+  const Eigen::Vector2d point(0.8, -1.2);
+  const GrowingPlant plant = growing_plant_at(space, point, {500, 2'000}, 1);
+  ASSERT_TRUE(plant.thinned);
+  EXPECT_EQ(plant.wanted, plant_at(space, point).values);
+  const GrowthEstimate wanted = wanted_size(space, plant, 1);
+  Plant grown;
+  ASSERT_TRUE(space.model->generate(plant_at(space, point).values, 1, {}, grown).grown);
+  EXPECT_EQ(wanted.stems, static_cast<double>(grown.stems.size()));
+  EXPECT_EQ(wanted.leaves, static_cast<double>(grown.leaves.size()));
+  EXPECT_GT(wanted.leaves, 2'000);
 }
 
 }  // namespace
