@@ -1,16 +1,17 @@
 // Do posteriors hold what they say? Trees are drawn from the prior and kept out of the table; the posterior
-// of each is computed from its silhouette alone. Counted is how often an interval holds the truth
-// (coverage.csv, a row an unknown), where the truth lies among the posterior's draws (ranks.csv, a row a
-// tree: uniform if all is well; Talts et al., arXiv:1804.06788, 2018; Modrak et al., Bayesian Analysis 20,
-// 2025), and how far the posterior's median is from the truth (errors.csv).
+// of each is computed from its silhouette alone. Counted is how often an interval holds the truth and how far
+// the posterior's median is from it (coverage.csv, a row an unknown; groups.csv, parameters and quantities),
+// where the truth lies among the posterior's draws (ranks.csv, a row a tree: uniform if all is well; Talts et
+// al., arXiv:1804.06788, 2018; Modrák et al., Bayesian Analysis 20, 2025), and how often the intervals of a
+// second table, of the next seed, overlap.
 //   build/bin/posterior_calibration DIR [--truths 400] [--simulations 16000] [--seed 1]
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,17 @@ struct Verdict {
   std::array<bool, kIntervals.size()> holds{};
   double rank = 0;         ///< share of the posterior below the truth
   double width_share = 0;  ///< of the 90 % interval, to the prior's
-  double error = 0;        ///< of the median: |median - truth| / |truth|
+  double error = 0;        ///< of the median, as a share of the truth
+  bool overlaps = false;   ///< the 90 % intervals of both tables
+};
+
+/// Of one unknown, over all trees.
+struct Calibration {
+  Unknown unknown;
+  std::array<double, kIntervals.size()> coverage{};
+  bool within_band = true;
+  double width_share = 0, error = 0;  ///< medians
+  double overlap = 0;                 ///< share of the trees
 };
 
 double rank_of(const Posterior& posterior, std::size_t unknown, double truth) {
@@ -51,16 +62,21 @@ double rank_of(const Posterior& posterior, std::size_t unknown, double truth) {
   return below;
 }
 
-std::vector<Verdict> judge(const PosteriorEstimator& estimator, const std::vector<Unknown>& unknowns,
-                           const Eigen::RowVectorXd& truth, const Eigen::RowVectorXd& summaries) {
-  const Posterior posterior = estimator.estimate({summaries.begin(), summaries.end()});
-  const std::vector<UnknownSummary> summary = summarize(estimator, posterior, unknowns);
+std::vector<Verdict> judge(const PosteriorEstimator& estimator, const PosteriorEstimator& other,
+                           const std::vector<Unknown>& unknowns, const Eigen::RowVectorXd& truth,
+                           const Eigen::RowVectorXd& summaries) {
+  const std::vector<double> observed(summaries.begin(), summaries.end());
+  const Posterior posterior = estimator.estimate(observed);
+  const auto summary = summarize(estimator, posterior, unknowns),
+             second = summarize(other, other.estimate(observed), unknowns);
   std::vector<Verdict> verdicts(unknowns.size());
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
     const double value = truth[static_cast<Eigen::Index>(i)];
     for (std::size_t k = 0; k < kIntervals.size(); ++k)
       verdicts[i].holds[k] =
           summary[i].intervals[k].first <= value && value <= summary[i].intervals[k].second;
+    const auto &a = summary[i].intervals.back(), &b = second[i].intervals.back();
+    verdicts[i].overlaps = a.first <= b.second && b.first <= a.second;
     verdicts[i].rank = rank_of(posterior, i, value);
     verdicts[i].width_share = summary[i].width_share;
     verdicts[i].error = std::fabs(summary[i].median - value) / std::max(std::fabs(value), 1e-12);
@@ -68,17 +84,9 @@ std::vector<Verdict> judge(const PosteriorEstimator& estimator, const std::vecto
   return verdicts;
 }
 
-/// Half the width of the band that holds 95 % of counts of `truths` hits of chance `share`, as a share.
+/// Half the width of the band that holds 95 % of the shares that `truths` trials of this chance hit.
 double binomial_band(double share, std::size_t truths) {
   return 1.96 * std::sqrt(share * (1 - share) / static_cast<double>(truths));
-}
-
-template <typename Get>
-std::vector<double> column(const std::vector<std::vector<Verdict>>& verdicts, std::size_t unknown, Get get) {
-  std::vector<double> values;
-  values.reserve(verdicts.size());
-  for (const std::vector<Verdict>& tree : verdicts) values.push_back(get(tree[unknown]));
-  return values;
 }
 
 double mean(const std::vector<double>& values) {
@@ -87,54 +95,67 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-std::string coverage_csv(const std::vector<Unknown>& unknowns,
-                         const std::vector<std::vector<Verdict>>& verdicts) {
-  std::string csv = "unknown,group";
-  for (const double share : kIntervals) csv += fmt::format(",coverage_{:g}", 100 * share);
-  csv += ",within_band,width_share_median,error_median\n";
-  for (std::size_t i = 0; i < unknowns.size(); ++i) {
-    csv += fmt::format("{},{}", unknowns[i].name, unknowns[i].is_quantity ? "quantity" : "parameter");
-    bool within = true;
-    for (std::size_t k = 0; k < kIntervals.size(); ++k) {
-      const double covered =
-          mean(column(verdicts, i, [k](const Verdict& verdict) { return verdict.holds[k] ? 1.0 : 0.0; }));
-      within = within && std::fabs(covered - kIntervals[k]) <= binomial_band(kIntervals[k], verdicts.size());
-      csv += fmt::format(",{:.4f}", covered);
-    }
-    csv +=
-        fmt::format(",{},{:.4f},{:.4f}\n", within ? 1 : 0,
-                    median(column(verdicts, i, [](const Verdict& verdict) { return verdict.width_share; })),
-                    median(column(verdicts, i, [](const Verdict& verdict) { return verdict.error; })));
+Calibration calibration_of(const Unknown& unknown, std::size_t index,
+                           const std::vector<std::vector<Verdict>>& verdicts) {
+  const auto over_trees = [&](auto get) {
+    std::vector<double> values;
+    values.reserve(verdicts.size());
+    for (const std::vector<Verdict>& tree : verdicts) values.push_back(get(tree[index]));
+    return values;
+  };
+  Calibration result{.unknown = unknown};
+  for (std::size_t k = 0; k < kIntervals.size(); ++k) {
+    result.coverage[k] =
+        mean(over_trees([k](const Verdict& verdict) { return verdict.holds[k] ? 1.0 : 0.0; }));
+    result.within_band &=
+        std::fabs(result.coverage[k] - kIntervals[k]) <= binomial_band(kIntervals[k], verdicts.size());
+  }
+  result.width_share = median(over_trees([](const Verdict& verdict) { return verdict.width_share; }));
+  result.error = median(over_trees([](const Verdict& verdict) { return verdict.error; }));
+  result.overlap = mean(over_trees([](const Verdict& verdict) { return verdict.overlaps ? 1.0 : 0.0; }));
+  return result;
+}
+
+std::string head_of_intervals() {
+  std::string head;
+  for (const double share : kIntervals) head += fmt::format(",coverage_{:g}", 100 * share);
+  return head;
+}
+
+std::string coverage_csv(const std::vector<Calibration>& calibrations) {
+  std::string csv =
+      "unknown,group" + head_of_intervals() + ",within_band,width_share_median,error_median,overlap_90\n";
+  for (const Calibration& row : calibrations) {
+    csv += fmt::format("{},{}", row.unknown.name, row.unknown.is_quantity ? "quantities" : "parameters");
+    for (const double covered : row.coverage) csv += fmt::format(",{:.4f}", covered);
+    csv += fmt::format(",{},{:.4f},{:.4f},{:.4f}\n", row.within_band ? 1 : 0, row.width_share, row.error,
+                       row.overlap);
   }
   return csv;
 }
 
-/// A row a group: the share of its unknowns within the band, and medians over them.
-std::string groups_csv(const std::vector<Unknown>& unknowns,
-                       const std::vector<std::vector<Verdict>>& verdicts) {
-  std::string csv = "group,unknowns,within_band_share";
-  for (const double share : kIntervals) csv += fmt::format(",coverage_{:g}", 100 * share);
-  csv += ",width_share_median,error_median\n";
+/// Means of coverage and overlap, medians of the others.
+std::string groups_csv(const std::vector<Calibration>& calibrations) {
+  std::string csv = "group,unknowns,within_band_share" + head_of_intervals() +
+                    ",width_share_median,error_median,overlap_90\n";
   for (const bool is_quantity : {false, true}) {
-    std::vector<double> within, widths, errors;
-    std::array<std::vector<double>, kIntervals.size()> coverages;
-    for (std::size_t i = 0; i < unknowns.size(); ++i) {
-      if (unknowns[i].is_quantity != is_quantity) continue;
-      bool in_band = true;
-      for (std::size_t k = 0; k < kIntervals.size(); ++k) {
-        coverages[k].push_back(
-            mean(column(verdicts, i, [k](const Verdict& verdict) { return verdict.holds[k] ? 1.0 : 0.0; })));
-        in_band = in_band && std::fabs(coverages[k].back() - kIntervals[k]) <=
-                                 binomial_band(kIntervals[k], verdicts.size());
-      }
-      within.push_back(in_band ? 1 : 0);
-      widths.push_back(
-          median(column(verdicts, i, [](const Verdict& verdict) { return verdict.width_share; })));
-      errors.push_back(median(column(verdicts, i, [](const Verdict& verdict) { return verdict.error; })));
-    }
-    csv += fmt::format("{},{},{:.4f}", is_quantity ? "quantity" : "parameter", within.size(), mean(within));
-    for (const std::vector<double>& covered : coverages) csv += fmt::format(",{:.4f}", mean(covered));
-    csv += fmt::format(",{:.4f},{:.4f}\n", median(widths), median(errors));
+    const auto over_group = [&](auto get) {
+      std::vector<double> values;
+      for (const Calibration& row : calibrations)
+        if (row.unknown.is_quantity == is_quantity) values.push_back(get(row));
+      return values;
+    };
+    const std::vector<double> within =
+        over_group([](const Calibration& row) { return row.within_band ? 1.0 : 0.0; });
+    csv +=
+        fmt::format("{},{},{:.4f}", is_quantity ? "quantities" : "parameters", within.size(), mean(within));
+    for (std::size_t k = 0; k < kIntervals.size(); ++k)
+      csv +=
+          fmt::format(",{:.4f}", mean(over_group([k](const Calibration& row) { return row.coverage[k]; })));
+    csv += fmt::format(",{:.4f},{:.4f},{:.4f}\n",
+                       median(over_group([](const Calibration& row) { return row.width_share; })),
+                       median(over_group([](const Calibration& row) { return row.error; })),
+                       mean(over_group([](const Calibration& row) { return row.overlap; })));
   }
   return csv;
 }
@@ -152,32 +173,49 @@ std::string ranks_csv(const std::vector<Unknown>& unknowns,
   return csv;
 }
 
-void calibrate(const CalibrationOptions& options) {
-  const PlantPrior prior(model_by_name("weber_penn"));
-  fs::create_directories(options.directory);
-  const fs::path path = options.directory / "table.bin";
-  ReferenceTable table = read_table(path, prior, options.seed, options.height_m);
-  const std::size_t wanted = options.simulations + options.truths;
+/// Kept in the directory from one call to the next.
+ReferenceTable table_of(const CalibrationOptions& options, const PlantPrior& prior, Seed seed,
+                        std::size_t size) {
+  const fs::path path = options.directory / fmt::format("table_{}.bin", seed);
+  ReferenceTable table = read_table(path, prior, seed, options.height_m);
+  const std::size_t before = table.size();
   extend_table(
-      prior, wanted, 0,
-      [](std::size_t done, std::size_t all) {
-        if (done % 2048 == 0) fmt::print(stderr, "{} of {} plants\n", done, all);
+      prior, size, 0,
+      [](std::size_t done, std::size_t wanted) {
+        if (done % 2048 == 0) fmt::print(stderr, "{} of {} plants\n", done, wanted);
         return true;
       },
       table);
-  write_table(path, prior, table);
-  const auto known = static_cast<Eigen::Index>(options.simulations);
-  const PosteriorEstimator estimator(table.unknowns.topRows(known), table.summaries.topRows(known));
+  if (table.size() > before) write_table(path, prior, table);
+  return table;
+}
+
+PosteriorEstimator estimator_of(const ReferenceTable& table, std::size_t simulations) {
+  const auto rows = static_cast<Eigen::Index>(simulations);
+  return {table.unknowns.topRows(rows), table.summaries.topRows(rows)};
+}
+
+void calibrate(const CalibrationOptions& options) {
+  const PlantPrior prior(model_by_name("weber_penn"));
+  fs::create_directories(options.directory);
+  const ReferenceTable table = table_of(options, prior, options.seed, options.simulations + options.truths);
+  const PosteriorEstimator estimator = estimator_of(table, options.simulations);
+  const PosteriorEstimator other =
+      estimator_of(table_of(options, prior, options.seed + 1, options.simulations), options.simulations);
   const std::vector<Unknown> unknowns = unknowns_of(prior);
   std::vector<std::vector<Verdict>> verdicts(options.truths);
   parallel_for(options.truths, [&](std::size_t i) {
-    const Eigen::Index row = known + static_cast<Eigen::Index>(i);
-    verdicts[i] = judge(estimator, unknowns, table.unknowns.row(row), table.summaries.row(row));
+    const auto row = static_cast<Eigen::Index>(options.simulations + i);
+    verdicts[i] = judge(estimator, other, unknowns, table.unknowns.row(row), table.summaries.row(row));
   });
-  write_file_atomically(options.directory / "coverage.csv", coverage_csv(unknowns, verdicts));
-  write_file_atomically(options.directory / "groups.csv", groups_csv(unknowns, verdicts));
+  std::vector<Calibration> calibrations;
+  calibrations.reserve(unknowns.size());
+  for (std::size_t i = 0; i < unknowns.size(); ++i)
+    calibrations.push_back(calibration_of(unknowns[i], i, verdicts));
+  write_file_atomically(options.directory / "coverage.csv", coverage_csv(calibrations));
+  write_file_atomically(options.directory / "groups.csv", groups_csv(calibrations));
   write_file_atomically(options.directory / "ranks.csv", ranks_csv(unknowns, verdicts));
-  fmt::print("{}", groups_csv(unknowns, verdicts));
+  fmt::print("{}", groups_csv(calibrations));
 }
 
 }  // namespace
@@ -187,7 +225,7 @@ int main(int argc, char** argv) {
   espalier::CalibrationOptions options;
   CLI::App app("Coverage of posteriors on trees drawn from their prior");
   app.add_option("directory", options.directory)->required();
-  app.add_option("--truths", options.truths);
+  app.add_option("--truths", options.truths)->check(CLI::Range(10, 100'000));
   app.add_option("--simulations", options.simulations);
   app.add_option("--seed", options.seed);
   CLI11_PARSE(app, argc, argv);

@@ -2,8 +2,8 @@
 // deep they are, what they need beyond their parameters; and, of known trees, how well the side that no
 // picture shows is met.
 #pragma once
+#include <espalier/experiments/declaration/experiment.h>
 #include <espalier/experiments/runner/csv.h>
-#include <espalier/experiments/runner/experiment.h>
 
 namespace espalier {
 

@@ -12,7 +12,7 @@
 #include <espalier/experiments/analysis/report.h>
 #include <espalier/experiments/analysis/score_sheet.h>
 #include <espalier/experiments/analysis/start_picture.h>
-#include <espalier/experiments/runner/experiment.h>
+#include <espalier/experiments/declaration/experiment.h>
 #include <espalier/experiments/runner/experiment_directory.h>
 #include <espalier/image/pictures/picture.h>
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <espalier/experiments/analysis/finished_fits.h>
+#include <espalier/experiments/declaration/experiment.h>
 #include <espalier/experiments/runner/csv.h>
-#include <espalier/experiments/runner/experiment.h>
 
 namespace espalier {
 

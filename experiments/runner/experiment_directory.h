@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <espalier/experiments/runner/experiment.h>
+#include <espalier/experiments/declaration/experiment.h>
 #include <espalier/experiments/runner/plan.h>
 
 namespace espalier {

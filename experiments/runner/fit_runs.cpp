@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include <espalier/core/error.h>
+#include <espalier/experiments/declaration/known_truth.h>
 #include <espalier/experiments/runner/fit_runs.h>
-#include <espalier/experiments/runner/known_truth.h>
 #include <espalier/experiments/runner/unseen_side.h>
 #include <espalier/experiments/runner/unseen_trees.h>
 #include <espalier/fitting/run/fit.h>

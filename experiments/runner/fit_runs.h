@@ -1,7 +1,7 @@
 // Runs of the kind [fits]: each is a run of espalier fit in its own directory, then its result is grown with
 // seeds that the fit never saw.
 #pragma once
-#include <espalier/experiments/runner/experiment.h>
+#include <espalier/experiments/declaration/experiment.h>
 #include <espalier/experiments/runner/plan.h>
 
 namespace espalier {

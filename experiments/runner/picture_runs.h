@@ -1,6 +1,6 @@
 // Runs of the kind [pictures]: each grows one tree and writes one shaded picture of it.
 #pragma once
-#include <espalier/experiments/runner/experiment.h>
+#include <espalier/experiments/declaration/experiment.h>
 #include <espalier/experiments/runner/plan.h>
 
 namespace espalier {

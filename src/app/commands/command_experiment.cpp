@@ -17,6 +17,7 @@
 #include <espalier/core/error.h>
 #include <espalier/experiments/analysis/check.h>
 #include <espalier/experiments/analysis/report.h>
+#include <espalier/experiments/declaration/experiment.h>
 #include <espalier/experiments/runner/run_experiment.h>
 #include <espalier/experiments/runner/summary_table.h>
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <espalier/experiments/runner/csv.h>
-#include <espalier/experiments/runner/experiment.h>
+#include <espalier/experiments/declaration/experiment.h>
 
 #include "support/run_espalier.h"
 

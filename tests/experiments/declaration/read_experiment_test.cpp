@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include <espalier/core/error.h>
-#include <espalier/experiments/runner/experiment.h>
+#include <espalier/experiments/declaration/experiment.h>
 #include <espalier/experiments/runner/run_experiment.h>
 
 #include "support/option_samples.h"

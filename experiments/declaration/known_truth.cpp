@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include <espalier/core/field_error.h>
-#include <espalier/experiments/runner/known_truth.h>
+#include <espalier/experiments/declaration/known_truth.h>
 #include <espalier/fitting/record/start_names.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>

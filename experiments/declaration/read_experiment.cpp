@@ -9,8 +9,8 @@
 #include <espalier/core/field_error.h>
 #include <espalier/core/toml/toml_section.h>
 #include <espalier/environment/volume.h>
-#include <espalier/experiments/runner/experiment.h>
-#include <espalier/experiments/runner/known_truth.h>
+#include <espalier/experiments/declaration/experiment.h>
+#include <espalier/experiments/declaration/known_truth.h>
 #include <espalier/fitting/optimizers/search_method.h>
 #include <espalier/fitting/record/fit_options.h>
 #include <espalier/fitting/record/option_values.h>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <espalier/core/field_error.h>
-#include <espalier/experiments/runner/known_truth.h>
+#include <espalier/experiments/declaration/known_truth.h>
 
 namespace espalier {
 namespace {
