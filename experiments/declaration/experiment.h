@@ -38,11 +38,11 @@ using TargetGroups = std::map<std::string, std::vector<std::string>>;
 
 struct FitsDeclaration {
   std::vector<TargetDeclaration> targets;
-  std::vector<OptimizerDeclaration> optimizers;
-  std::vector<std::string> objectives;
-  std::vector<SpaceDeclaration> spaces;
-  std::vector<std::string> starts;
-  std::vector<Seed> seeds;
+  std::vector<OptimizerDeclaration> optimizers = {{"cma_es", "cma_es", {}}};
+  std::vector<std::string> objectives;  ///< that of the record, where the file names none
+  std::vector<SpaceDeclaration> spaces = {SpaceDeclaration{}};
+  std::vector<std::string> starts = {"auto"};
+  std::vector<Seed> seeds = {1};
   FitRecord record;                     ///< what all runs share: budget, growth, size, view
   std::vector<bool> trained = {false};  ///< to grow into the picture, or not
   int threads = 1;                      ///< of each run; fewer runs at once then
@@ -68,7 +68,7 @@ struct PicturesDeclaration {
   Seed seed = 1;
   int size_px = 320;
   double frame_m = 0;  ///< side of each picture, the tree's foot near its bottom; 0: framed one by one
-  std::vector<PictureChange> rows, columns;
+  std::vector<PictureChange> rows = {PictureChange{}}, columns = {PictureChange{}};
 };
 
 struct GrowthDeclaration {
@@ -87,6 +87,7 @@ struct ExperimentMetadata {
   std::string note;                       ///< a paragraph for the page
   std::vector<double> published_fitness;  ///< its range in the source, as [0.95, 0.97]; empty where unknown
   std::string text;                       ///< the whole file
+  std::filesystem::path file;             ///< as it was named
   std::filesystem::path expectations;     ///< beside the file; it need not be there
 };
 
@@ -104,6 +105,14 @@ ExperimentMetadata read_metadata(const std::filesystem::path& path);
 /// file, line, key, got and expected. settings: KEY=VALUE in TOML, each replaces a key of [fits], [pictures]
 /// or [growth]; the experiment's text then holds them.
 Experiment read_experiment(const std::filesystem::path& path, const std::vector<std::string>& settings = {});
+
+/// The same of a text that was read from `path`, or a later version of it: files that the text names lie
+/// beside that.
+Experiment read_experiment_text(const std::string& text, const std::filesystem::path& path);
+
+/// What of `is` no study can be given that has the runs of `was`: "evaluations: got 300, expected 200". Empty
+/// where the runs of `was` are all among those of `is`, or are renamed there: lists may grow.
+std::string change_of_runs(const Experiment& was, const Experiment& is);
 
 /// The groups of targets that the file names; none where it has none.
 TargetGroups read_groups(const std::filesystem::path& path);

@@ -11,6 +11,7 @@
 
 #include <espalier/app/commands/commands.h>
 #include <espalier/app/options/fit_option_docs.h>
+#include <espalier/experiments/declaration/experiment_keys.h>
 #include <espalier/fitting/optimizers/optimizer.h>
 #include <espalier/image/measures/metric_table.h>
 #include <espalier/lsystem/strings/turtle_commands.h>
@@ -81,6 +82,7 @@ struct Topic {
 
 constexpr Topic kTopics[] = {
     {"fit", fit_options_as_markdown},
+    {"experiment", experiment_keys_as_markdown},
     {"measures", measures_as_markdown},
     {"lsystem-commands", lsystem_commands_as_markdown},
     {"optimizers", optimizers_as_markdown},

@@ -1,0 +1,260 @@
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include <espalier/core/data_path.h>
+#include <espalier/core/parameter_table.h>
+#include <espalier/experiments/declaration/experiment_keys.h>
+#include <espalier/experiments/declaration/fit_lists.h>
+#include <espalier/experiments/declaration/toml_values.h>
+#include <espalier/fitting/optimizers/search_method.h>
+#include <espalier/fitting/record/fit_options.h>
+#include <espalier/fitting/record/option_values.h>
+#include <espalier/fitting/record/search_space.h>
+#include <espalier/fitting/record/species_components.h>
+#include <espalier/fitting/search/space_search.h>
+#include <espalier/fitting/starts/start_points.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+
+namespace espalier {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::int64_t kLargestSeed = 1'000'000'000;
+
+// What a value is in tables, and in the words of a file.
+
+template <typename Value>
+std::string as_text(const Value& value) {
+  return fmt::format("{}", value);
+}
+
+std::string in_braces(const std::vector<std::string>& parts) {
+  return fmt::format("{{{}}}", fmt::join(parts, ", "));
+}
+
+std::vector<std::string> assignments(const std::map<std::string, double>& values) {
+  std::vector<std::string> texts;
+  for (const auto& [name, value] : values) texts.push_back(fmt::format("{} = {:g}", name, value));
+  return texts;
+}
+
+template <typename Value>
+void expect_distinct_texts(const TomlSection& section, std::string_view key,
+                           const std::vector<Value>& values) {
+  expect_distinct(section, key, values, as_text<Value>, as_text<Value>);
+}
+
+// Targets.
+
+/// A bundled target by name, or a picture by its path from the working directory or the experiment's file.
+fs::path find_picture(const Element& element, const std::string& name) {
+  const fs::path bundled = data_path_or_first("targets") / (name + ".png");
+  std::error_code error;
+  for (const fs::path& path : {bundled, fs::path(name), fs::path(beside_the_file(element.section(), name))})
+    if (fs::is_regular_file(path, error)) return fs::absolute(path);
+  throw_input_error("{}: got '{}', expected a picture or a bundled target like '{}'", element.place(), name,
+                    closest_name(name, bundled_targets()));
+}
+
+TargetDeclaration read_target_declaration(const Element& element) {
+  const TomlSection& section = element.section();
+  section.expect_only(names_of(target_keys()));
+  TargetDeclaration target;
+  if (section.has("species")) {
+    target.species = section.text("species");
+    if (section.has("seed")) target.seed = static_cast<Seed>(whole_between(section, "seed", 0, kLargestSeed));
+    target.name = section.text_or("name", fs::path(target.species).stem());
+    located(section, "species", [&] { return load_preset(target.species); });
+    return target;
+  }
+  target.picture = find_picture(element, section.text("picture"));
+  target.name = section.text_or("name", target.picture.stem());
+  return target;
+}
+
+// Optimisers and spaces.
+
+std::string label_of(const OptimizerDeclaration& optimizer) {
+  std::string label = optimizer.name;
+  for (const auto& [name, value] : optimizer.settings) label += fmt::format(" {}={:g}", name, value);
+  return label;
+}
+
+OptimizerDeclaration read_optimizer(const Element& element) {
+  OptimizerDeclaration optimizer;
+  const TomlSection& section = element.section();
+  optimizer.name = section.text("name");
+  for (const auto& [key, value] : section.table)
+    if (key != "name" && key != "label")
+      optimizer.settings[std::string(key.str())] = section.number(key.str());
+  located(element.place(), [&] {
+    complete_settings(optimizer.name, optimizer_by_name(optimizer.name).settings(), optimizer.settings);
+    return 0;
+  });
+  optimizer.label = section.text_or("label", label_of(optimizer));
+  return optimizer;
+}
+
+SpaceDeclaration read_space(const Element& element, const FitRecord& shared) {
+  const TomlSection& section = element.section();
+  section.expect_only(names_of(space_keys()));
+  const Model& model = model_by_name(shared.model);
+  SpaceDeclaration space;
+  space.label = section.text_or("label", "default");
+  if (section.table.size() == 1 && space.label != "default")
+    throw_input_error("{}: got '{}' alone, expected \"default\" or a table with free, fixed or first",
+                      element.place(), space.label);
+  space.first = section.text_or("first", "");
+  located(element.place(), [&] {
+    FitRecord record = shared;
+    for (const char* key : {"free", "fixed"})
+      if (section.has(key))
+        set_from_request(*find_option(std::string("search.") + key), section.node(key), section.source,
+                         record);
+    space.search = record.search;
+    if (const int components = parse_search_space(space.first)) bundled_species_space(model, components);
+    return make_search_space(model.table(), model.table().defaults(), space.search);
+  });
+  return space;
+}
+
+}  // namespace
+
+std::vector<std::string> bundled_targets() {
+  std::vector<std::string> bundled;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(data_path_or_first("targets"), error))
+    if (entry.path().extension() == ".png") bundled.push_back(entry.path().stem());
+  std::sort(bundled.begin(), bundled.end());
+  return bundled;
+}
+
+std::string describe(const TargetDeclaration& target) {
+  if (target.species.empty()) return target.picture.string();
+  return in_braces({fmt::format("species = {}", target.species), fmt::format("seed = {}", target.seed)});
+}
+
+std::string describe(const OptimizerDeclaration& optimizer) {
+  std::vector<std::string> parts = assignments(optimizer.settings);
+  parts.insert(parts.begin(), fmt::format("name = {}", optimizer.name));
+  return in_braces(parts);
+}
+
+std::string describe(const SpaceDeclaration& space) {
+  std::vector<std::string> parts;
+  if (!space.search.free.empty())
+    parts.push_back(fmt::format("free = [{}]", fmt::join(space.search.free, ", ")));
+  if (!space.search.fixed.empty()) parts.push_back("fixed = " + in_braces(assignments(space.search.fixed)));
+  if (!space.first.empty()) parts.push_back(fmt::format("first = {}", space.first));
+  return parts.empty() ? "default" : in_braces(parts);
+}
+
+void read_targets(const TomlSection& fits, FitsDeclaration& declaration) {
+  for (const toml::node& node : filled_array(fits, "targets"))
+    declaration.targets.push_back(read_target_declaration(Element(fits, "targets", node, "picture")));
+  expect_distinct(
+      fits, "targets", declaration.targets, [](const TargetDeclaration& target) { return target.name; },
+      [](const TargetDeclaration& target) { return describe(target); });
+}
+
+void read_optimizers(const TomlSection& fits, FitsDeclaration& declaration) {
+  declaration.optimizers.clear();
+  for (const toml::node& node : filled_array(fits, "optimizers")) {
+    if (node.value_exact<std::string>() == "all")
+      for (const auto& optimizer : all_optimizers())
+        declaration.optimizers.push_back({optimizer->name(), optimizer->name(), {}});
+    else
+      declaration.optimizers.push_back(read_optimizer(Element(fits, "optimizers", node, "name")));
+  }
+  expect_distinct(
+      fits, "optimizers", declaration.optimizers,
+      [](const OptimizerDeclaration& optimizer) { return optimizer.label; },
+      [](const OptimizerDeclaration& optimizer) { return describe(optimizer); });
+}
+
+void read_objectives(const TomlSection& fits, FitsDeclaration& declaration) {
+  filled_array(fits, "objectives");
+  std::vector<std::string>& objectives = declaration.objectives;
+  objectives = fits.texts("objectives");
+  std::replace(objectives.begin(), objectives.end(), std::string("fit"), std::string(kFitObjective));
+  for (const std::string& objective : objectives) {
+    FitRecord record;
+    record.objective = objective;
+    located(fits, "objectives", [&] { check_option(*find_option("objective"), record); });
+  }
+  expect_distinct_texts(fits, "objectives", objectives);
+}
+
+void read_spaces(const TomlSection& fits, FitsDeclaration& declaration) {
+  declaration.spaces.clear();
+  for (const toml::node& node : filled_array(fits, "spaces"))
+    declaration.spaces.push_back(read_space(Element(fits, "spaces", node, "label"), declaration.record));
+  expect_distinct(
+      fits, "spaces", declaration.spaces, [](const SpaceDeclaration& space) { return space.label; },
+      [](const SpaceDeclaration& space) { return describe(space); });
+}
+
+void read_starts(const TomlSection& fits, FitsDeclaration& declaration) {
+  filled_array(fits, "starts");
+  declaration.starts = fits.texts("starts");
+  const ParameterTable& table = model_by_name(declaration.record.model).table();
+  for (const std::string& start : declaration.starts)
+    located(fits, "starts", [&] { return presets_as_written(table, parse_start(start)); });
+  expect_distinct_texts(fits, "starts", declaration.starts);
+}
+
+void read_trained(const TomlSection& fits, FitsDeclaration& declaration) {
+  declaration.trained.clear();
+  const std::string& model = declaration.record.model;
+  for (const toml::node& node : filled_array(fits, "trained")) {
+    const auto value = node.value_exact<bool>();
+    if (!value) fits.fail("trained", "true and false");
+    if (*value && !model_by_name(model).can_train())
+      fits.fail("trained", fmt::format("false alone: {} cannot grow into a picture", model));
+    declaration.trained.push_back(*value);
+  }
+  if (std::ranges::count(declaration.trained, true) > 1 || std::ranges::count(declaration.trained, false) > 1)
+    fits.fail("trained", "true and false, each once");
+}
+
+void read_seeds(const TomlSection& fits, FitsDeclaration& declaration) {
+  declaration.seeds.clear();
+  if (!fits.node("seeds").is_array()) {
+    const std::int64_t count = whole_between(fits, "seeds", 1, 10'000);
+    for (std::int64_t seed = 1; seed <= count; ++seed) declaration.seeds.push_back(static_cast<Seed>(seed));
+    return;
+  }
+  for (const toml::node& node : filled_array(fits, "seeds")) {
+    const auto seed = node.value_exact<std::int64_t>();
+    if (!seed || *seed < 0) fits.fail("seeds", "whole numbers from 0");
+    declaration.seeds.push_back(static_cast<Seed>(*seed));
+  }
+  expect_distinct_texts(fits, "seeds", declaration.seeds);
+}
+
+TargetGroups groups_in(const TomlSection& fits) {
+  TargetGroups groups;
+  if (!fits.has("groups")) return groups;
+  const TomlSection section = fits.section("groups");
+  for (const auto& [name, members] : section.table)
+    groups[std::string(name.str())] = section.texts(name.str());
+  return groups;
+}
+
+/// Members are targets of the experiment, or bundled ones that it leaves out.
+void read_groups_of_targets(const TomlSection& fits, FitsDeclaration& declaration) {
+  declaration.groups = groups_in(fits);
+  std::vector<std::string> known = bundled_targets();
+  for (const TargetDeclaration& target : declaration.targets) known.push_back(target.name);
+  for (const auto& [group, members] : declaration.groups)
+    for (const std::string& member : members)
+      if (std::find(known.begin(), known.end(), member) == known.end())
+        throw_input_error("{}: got '{}' in group '{}', expected a target like '{}'", location(fits, "groups"),
+                          member, group, closest_name(member, known));
+}
+
+}  // namespace espalier
