@@ -114,16 +114,35 @@ void check_experiment_directory(const fs::path& directory, const Experiment& exp
     if (holds_files(directory))
       throw_input_error("{}: got a directory with other files, expected a new one or that of '{}'",
                         directory.string(), experiment.words.name);
-  } else if (!same_runs(read_file(path), experiment.words.text)) {
-    throw_input_error("{}: got the directory of another experiment, expected that of '{}' as it is now",
-                      path.string(), experiment.words.name);
+  } else if (const auto earlier = earlier_experiment(directory, experiment)) {
+    if (const std::string change = change_of_runs(*earlier, experiment); !change.empty())
+      throw_input_error("{}: {}, as its runs have it (others need another --out)", path.string(), change);
+  }
+}
+
+std::optional<Experiment> earlier_experiment(const fs::path& directory, const Experiment& experiment) {
+  const fs::path path = directory / kDeclaration;
+  std::error_code error;
+  if (!fs::exists(path, error)) return std::nullopt;
+  const std::string text = read_file(path);
+  if (same_runs(text, experiment.words.text)) return std::nullopt;
+  try {
+    return read_experiment_text(text, experiment.words.file);
+  } catch (const InputError& failure) {
+    throw_input_error(
+        "{}: got another experiment, which cannot be read beside {} ({}), expected that of '{}'",
+        path.string(), experiment.words.file.string(), failure.what(), experiment.words.name);
   }
 }
 
 void write_declaration(const fs::path& directory, const Experiment& experiment) {
-  write_file_atomically(directory / kDeclaration, experiment.words.text);
+  write_declared_text(directory, experiment.words.text);
   if (fs::is_regular_file(experiment.words.expectations))
     write_file_atomically(kept_expectations(directory), read_file(experiment.words.expectations));
+}
+
+void write_declared_text(const fs::path& directory, const std::string& text) {
+  write_file_atomically(directory / kDeclaration, text);
 }
 
 fs::path kept_expectations(const fs::path& directory) { return directory / "experiment.expected.toml"; }

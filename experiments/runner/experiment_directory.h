@@ -25,12 +25,20 @@ class DirectoryLock {
   int file_ = -1;
 };
 
-/// Throws InputError where the directory is another experiment's, or holds other files.
+/// Throws InputError where the directory holds other files, or runs that the experiment does not have as they
+/// are: it may have more of them.
 void check_experiment_directory(const std::filesystem::path& directory, const Experiment& experiment);
+
+/// What the directory was made with, where that had other runs.
+std::optional<Experiment> earlier_experiment(const std::filesystem::path& directory,
+                                             const Experiment& experiment);
 
 /// experiment.toml, as the user gave it; and, where NAME.expected.toml lies beside it, that as
 /// experiment.expected.toml.
 void write_declaration(const std::filesystem::path& directory, const Experiment& experiment);
+
+/// experiment.toml alone.
+void write_declared_text(const std::filesystem::path& directory, const std::string& text);
 
 /// Where the directory keeps its experiment's expectations, if it has some.
 std::filesystem::path kept_expectations(const std::filesystem::path& directory);

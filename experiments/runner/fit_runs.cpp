@@ -215,7 +215,26 @@ std::vector<FitCell> all_cells(const FitsDeclaration& fits, const std::vector<Re
   return expand(cells, "seed", fits.seeds, set_seed);
 }
 
+/// Names that stand for what the cell's labels say.
+void add_runs(const std::vector<FitCell>& cells, Plan& plan) {
+  plan.runs.reserve(cells.size());
+  for (const FitCell& cell : cells)
+    plan.runs.push_back(
+        {directory_name(cell.name), cell.labels,
+         [cell](const fs::path& run, const RunContext& context) { return run_cell(cell, run, context); }});
+  make_names_unique(plan);
+}
+
 }  // namespace
+
+Plan name_fits(const FitsDeclaration& fits) {
+  std::vector<ReadyTarget> targets;
+  targets.reserve(fits.targets.size());
+  for (const TargetDeclaration& target : fits.targets) targets.push_back({target, target.picture, {}});
+  Plan plan;
+  add_runs(all_cells(fits, targets), plan);
+  return plan;
+}
 
 Plan plan_fits(const FitsDeclaration& fits, const fs::path& directory) {
   Plan plan;
@@ -231,11 +250,7 @@ Plan plan_fits(const FitsDeclaration& fits, const fs::path& directory) {
   plan.time_columns = {"seconds", "evaluations"};
   std::vector<ReadyTarget> targets;
   for (const TargetDeclaration& target : fits.targets) targets.push_back(ready_target(target, directory));
-  for (const FitCell& cell : all_cells(fits, targets))
-    plan.runs.push_back(
-        {directory_name(cell.name), cell.labels,
-         [cell](const fs::path& run, const RunContext& context) { return run_cell(cell, run, context); }});
-  make_names_unique(plan);
+  add_runs(all_cells(fits, targets), plan);
   return plan;
 }
 

@@ -9,4 +9,7 @@ namespace espalier {
 /// Targets that are species are drawn into `directory`/targets. Throws InputError where that fails.
 Plan plan_fits(const FitsDeclaration& fits, const std::filesystem::path& directory);
 
+/// The same runs by name, with nothing drawn; they cannot be executed.
+Plan name_fits(const FitsDeclaration& fits);
+
 }  // namespace espalier

@@ -8,6 +8,7 @@
 
 #include <espalier/experiments/runner/fit_runs.h>
 #include <espalier/experiments/runner/growth_runs.h>
+#include <espalier/experiments/runner/move_runs.h>
 #include <espalier/experiments/runner/picture_runs.h>
 #include <espalier/experiments/runner/run_experiment.h>
 
@@ -116,6 +117,20 @@ std::vector<RunRow> begin_rows(const Plan& plan, const fs::path& directory) {
   return rows;
 }
 
+/// Names and labels alone: nothing is drawn.
+Plan names_of_runs(const Experiment& experiment) {
+  if (experiment.fits) return name_fits(*experiment.fits);
+  return plan_of(experiment, {});
+}
+
+/// Runs of an experiment that has grown keep what they are, and take the names that they have now.
+void declare(const fs::path& directory, const Experiment& experiment) {
+  if (const auto earlier = earlier_experiment(directory, experiment))
+    move_runs(directory, renamed_runs(names_of_runs(*earlier), names_of_runs(experiment)),
+              experiment.words.text);
+  write_declaration(directory, experiment);
+}
+
 int job_count(const Plan& plan, const RunnerOptions& options) {
   if (plan.one_at_a_time) return 1;
   const int processors = static_cast<int>(std::thread::hardware_concurrency());
@@ -135,11 +150,13 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
                                  const RunnerOptions& options) {
   check_experiment_directory(directory, experiment);
   const DirectoryLock lock(directory);
+  finish_moves(directory);
   check_experiment_directory(directory, experiment);  // another process may have been quicker
-  write_declaration(directory, experiment);
+  declare(directory, experiment);
   ExperimentOutcome outcome;
   outcome.plan = plan_of(experiment, directory);
   outcome.rows = begin_rows(outcome.plan, directory);
+  write_tables(directory, outcome.plan, outcome.rows);  // of runs that were moved
   Runner runner(directory, options, outcome);
   const int jobs = job_count(outcome.plan, options);
   std::vector<std::jthread> threads;

@@ -29,8 +29,9 @@ struct ExperimentOutcome {
 
 Plan plan_of(const Experiment& experiment, const std::filesystem::path& directory);
 
-/// Runs what is left. A run that throws becomes a row with its error. Throws InputError for a directory of
-/// another experiment, or one that another process works in.
+/// Runs what is left, also of an experiment that has more runs than the directory was made with. A run that
+/// throws becomes a row with its error. Throws InputError for a directory of another experiment, or one that
+/// another process works in.
 ExperimentOutcome run_experiment(const Experiment& experiment, const std::filesystem::path& directory,
                                  const RunnerOptions& options = {});
 
