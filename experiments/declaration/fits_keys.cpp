@@ -125,15 +125,23 @@ std::string default_of(const FitOption& option) {
   return type_of(option) == ValueType::text ? fmt::format("'{}'", words) : words;
 }
 
+/// A limit of evaluations takes that of time away: then it is the evaluations that have changed.
+bool is_replaced(const FitOption& option, const FitsDeclaration& was, const FitsDeclaration& is) {
+  return option.field == "budget.seconds" && was.record.budget.evaluations != is.record.budget.evaluations;
+}
+
 FitsKey key_of(const FitOption& option) {
   const std::string key = experiment_key(option);
   const bool is_time = option.field == "budget.seconds";
+  const auto is_unchanged = unchanged<FitsDeclaration>([&option](const FitsDeclaration& declaration) {
+    return to_words(get_value(option, declaration.record));
+  });
   return {{key, describe_values(option), default_of(option) + (is_time ? ", none with evaluations" : ""),
            option.help},
           nullptr,
-          unchanged<FitsDeclaration>([&option](const FitsDeclaration& declaration) {
-            return to_words(get_value(option, declaration.record));
-          })};
+          [=, &option](const FitsDeclaration& was, const FitsDeclaration& is) -> std::string {
+            return is_replaced(option, was, is) ? "" : is_unchanged(was, is);
+          }};
 }
 
 std::vector<FitsKey> all_keys_of_fits() {

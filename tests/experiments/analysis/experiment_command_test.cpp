@@ -6,6 +6,7 @@
 #include <sys/file.h>
 
 #include <fstream>
+#include <map>
 #include <random>
 
 #include <espalier/experiments/runner/csv.h>
@@ -72,6 +73,92 @@ TEST(ExperimentCommand, RunsThatAreDoneAreNotRunAgain) {
   const std::string times = read_text_file(out / "times.csv");
   ASSERT_EQ(run_espalier(run_arguments(study, out)).exit_code, 0);
   EXPECT_EQ(read_text_file(out / "times.csv"), times) << "wall times would differ";
+}
+
+/// The small study with other lists.
+fs::path grown_study(const std::string& targets, const std::string& optimizers, const std::string& seeds,
+                     const std::string& more = "") {
+  return file_with("study.toml", "[fits]\ntargets = [" + targets + "]\noptimizers = [" + optimizers +
+                                     "]\nseeds = " + seeds +
+                                     "\nstarts = ['palm']\nevaluations = 100\nsize = 32\nmax_stems = 300\n"
+                                     "max_leaves = 3000\n" +
+                                     more);
+}
+
+/// The files that runs left, by the labels of their rows.
+std::map<std::string, std::string> results_by_labels(const fs::path& out) {
+  const CsvTable results = read_csv(out / "results.csv");
+  std::map<std::string, std::string> files;
+  for (std::size_t row = 0; row < results.rows.size(); ++row) {
+    const fs::path run = out / "runs" / results.text(row, "run");
+    std::string& text =
+        files[results.text(row, "target") + results.text(row, "optimizer") + results.text(row, "seed")];
+    for (const char* file : {"row.json", "summary.json", "trace.csv"}) text += read_text_file(run / file);
+  }
+  return files;
+}
+
+TEST(ExperimentCommand, AFinishedStudyTakesMoreSeedsTargetsAndMethods) {
+  const fs::path out = fresh_folder("grow") / "out", fresh = fresh_folder("grow_fresh") / "out";
+  const fs::path small = grown_study("'oc_palm'", "'cma_es'", "[2]");
+  ASSERT_EQ(run_espalier(run_arguments(small, out)).exit_code, 0);
+  const auto before = results_by_labels(out);
+  const fs::path large = grown_study("'oc_evergreen', 'oc_palm'", "'LN_SBPLX', 'cma_es'", "2");
+  const ProgramRun run = run_espalier(run_arguments(large, out));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto after = results_by_labels(out);
+  EXPECT_EQ(after.size(), 8u);
+  ASSERT_EQ(before.size(), 1u);
+  EXPECT_EQ(after.at("oc_palmcma_es2"), before.at("oc_palmcma_es2")) << "wall times would differ";
+  ASSERT_EQ(run_espalier(run_arguments(large, fresh)).exit_code, 0);
+  EXPECT_EQ(read_text_file(out / "results.csv"), read_text_file(fresh / "results.csv"));
+  EXPECT_EQ(run_espalier("experiment report '" + out.string() + "'").exit_code, 0);
+  EXPECT_EQ(read_text_file(out / "experiment.toml"), read_text_file(large));
+}
+
+TEST(ExperimentCommand, AStudyKilledWhileItGrowsEndsAsIfItHadNotBeen) {
+  const fs::path folder = fresh_folder("grow_kill"), out = folder / "out";
+  ASSERT_EQ(run_espalier(run_arguments(grown_study("'oc_palm'", "'cma_es'", "3"), out)).exit_code, 0);
+  const fs::path large = grown_study("'oc_palm', 'oc_evergreen'", "'cma_es', 'LN_SBPLX'", "4");
+  int kills = 0;
+  for (int attempt = 0; attempt < 5; ++attempt)
+    kills += WIFSIGNALED(run_and_signal(run_arguments(large, out), 350 + 30 * attempt, SIGKILL));
+  EXPECT_GT(kills, 0);
+  ASSERT_EQ(run_espalier(run_arguments(large, out)).exit_code, 0);
+  ASSERT_EQ(run_espalier(run_arguments(large, folder / "unbroken")).exit_code, 0);
+  EXPECT_EQ(read_text_file(out / "results.csv"), read_text_file(folder / "unbroken" / "results.csv"));
+}
+
+TEST(ExperimentCommand, WhatWouldChangeRunsIsRefusedByItsKey) {
+  const fs::path out = fresh_folder("grow_refused") / "out";
+  ASSERT_EQ(run_espalier(run_arguments(grown_study("'oc_palm'", "'cma_es'", "2"), out)).exit_code, 0);
+  const std::string results = read_text_file(out / "results.csv");
+  const auto refused = [&](const fs::path& study, const std::string& words) {
+    expect_error(run_arguments(study, out), words);
+    EXPECT_EQ(read_text_file(out / "results.csv"), results);
+  };
+  refused(grown_study("'oc_palm'", "'cma_es'", "1"), "seeds: got none that is '2'");
+  refused(grown_study("'oc_evergreen'", "'cma_es'", "2"), "targets: got none that is 'oc_palm'");
+  refused(grown_study("'oc_palm'", "'cma_es'", "2", "kind = 'palm'\n"), "kind: got palm, expected any");
+  refused(grown_study("'oc_palm'", "'cma_es'", "2", "objectives = ['iou']\n"), "objectives: got none");
+  refused(grown_study("'oc_palm'", "{name = 'ga', label = 'cma_es'}", "2"), "optimizers: got {name = ga}");
+  expect_error(run_arguments(grown_study("'oc_palm'", "'cma_es'", "2"), out) + " --set evaluations=90",
+               "evaluations: got 90, expected 100");
+}
+
+TEST(ExperimentCommand, ASheetThatGrowsKeepsItsPicturesAtTheirPlaces) {
+  const auto sheet = [](const std::string& columns) {
+    return file_with("sheet.toml", "[pictures]\nspecies = 'palm'\nsize = 32\ncolumns = [" + columns + "]\n");
+  };
+  const std::string a = "{label = 'a', set = {flare = 2}}", b = "{label = 'b', set = {leaf_blos_num = 0}}";
+  const fs::path out = fresh_folder("grow_sheet") / "out", runs = out / "runs";
+  ASSERT_EQ(run_espalier(run_arguments(sheet(a), out)).exit_code, 0);
+  const std::string picture = read_text_file(runs / "row1-column1" / "picture.png");
+  const auto written = fs::last_write_time(runs / "row1-column1" / "picture.png");
+  ASSERT_EQ(run_espalier(run_arguments(sheet(b + ", " + a), out)).exit_code, 0);
+  EXPECT_EQ(read_text_file(runs / "row1-column2" / "picture.png"), picture);
+  EXPECT_EQ(fs::last_write_time(runs / "row1-column2" / "picture.png"), written) << "drawn again";
+  EXPECT_NE(read_text_file(runs / "row1-column1" / "picture.png"), picture);
 }
 
 TEST(ExperimentCommand, AFailedRunIsARowAndTheOthersGoOn) {
@@ -177,7 +264,7 @@ TEST(ExperimentCommand, RefusesDirectoriesOfOthers) {
   const fs::path folder = fresh_folder("others"), study = small_study();
   const fs::path other = file_with("other.toml", "[growth]\nspecies = ['palm']\nseeds = 1\n");
   ASSERT_EQ(run_espalier(run_arguments(other, folder / "growth")).exit_code, 0);
-  expect_error(run_arguments(study, folder / "growth"), "another experiment");
+  expect_error(run_arguments(study, folder / "growth"), "another experiment, of [fits]");
   fs::create_directory(folder / "full");
   std::ofstream(folder / "full" / "letter.txt") << "x";
   expect_error(run_arguments(study, folder / "full"), "other files");
