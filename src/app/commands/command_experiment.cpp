@@ -1,5 +1,5 @@
-// espalier experiment: runs experiments declared as data, reports them, and checks them against what is
-// expected of them.
+// espalier experiment: runs experiments declared as data, reports them, checks them against what is expected
+// of them, and compares two of them.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -15,8 +15,10 @@
 #include <espalier/app/version.h>
 #include <espalier/core/data_path.h>
 #include <espalier/core/error.h>
+#include <espalier/core/files.h>
 #include <espalier/experiments/analysis/check.h>
 #include <espalier/experiments/analysis/report.h>
+#include <espalier/experiments/comparison/compare_studies.h>
 #include <espalier/experiments/declaration/experiment.h>
 #include <espalier/experiments/runner/run_experiment.h>
 #include <espalier/experiments/runner/summary_table.h>
@@ -27,6 +29,15 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+
+fs::path make_directory(const fs::path& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error)
+    throw_input_error("{}: got '{}', expected a directory that can be made", directory.string(),
+                      error.message());
+  return directory;
+}
 
 struct RunArguments {
   std::string file, out;
@@ -136,6 +147,34 @@ void add_check_command(CLI::App& experiment) {
   command->callback([arguments] { check_runs(*arguments); });
 }
 
+struct CompareArguments {
+  std::string first, second, out;
+};
+
+void compare(const CompareArguments& arguments) {
+  const StudyComparison comparison = compare_studies(arguments.first, arguments.second);
+  const std::string page = comparison_as_markdown(comparison);
+  if (arguments.out.empty()) {
+    fmt::print("{}", page);
+    return;
+  }
+  const fs::path out = make_directory(arguments.out);
+  write_file_atomically(out / "compare.md", page);
+  write_file_atomically(out / "compare.csv", to_csv(comparison.table));
+  fmt::print("{}\n", (out / "compare.md").string());
+}
+
+void add_compare_command(CLI::App& experiment) {
+  CLI::App* command = experiment.add_subcommand(
+      "compare", "Say whether one of two finished experiments is better on the targets that both have");
+  const auto arguments = std::make_shared<CompareArguments>();
+  command->add_option("first", arguments->first, "directory of an experiment: runs/NAME")->required();
+  command->add_option("second", arguments->second, "that of another one")->required();
+  command->add_option("--out", arguments->out,
+                      "directory for compare.md and compare.csv (default: the table is printed)");
+  command->callback([arguments] { compare(*arguments); });
+}
+
 void add_run_command(CLI::App& experiment) {
   CLI::App* command = experiment.add_subcommand("run", "Run what is left of an experiment");
   const auto arguments = std::make_shared<RunArguments>();
@@ -156,11 +195,13 @@ void add_run_command(CLI::App& experiment) {
 }  // namespace
 
 void add_experiment_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("experiment", "Run, report and check experiments declared as data");
+  CLI::App* command =
+      app.add_subcommand("experiment", "Run, report, check and compare experiments declared as data");
   command->require_subcommand(1);
   add_run_command(*command);
   add_report_command(*command);
   add_check_command(*command);
+  add_compare_command(*command);
 }
 
 }  // namespace espalier
