@@ -14,11 +14,11 @@
 
 namespace espalier {
 
-/// A picture, or the silhouette of a bundled species or preset file.
+/// Pictures of a tree, or the silhouettes of a bundled species or preset file.
 struct TargetDeclaration {
   std::string name;               ///< in tables and directories
-  std::filesystem::path picture;  ///< empty where it is drawn from a species
-  std::string species;            ///< empty where it is a picture
+  std::vector<ViewRecord> views;  ///< at least one; without pictures where they are drawn from a species
+  std::string species;            ///< empty where there are pictures
   Seed seed = 1;                  ///< of the species' tree
 };
 
@@ -29,8 +29,10 @@ struct OptimizerDeclaration {
 
 struct SpaceDeclaration {
   std::string label = "default";
+  std::string model = FitRecord{}.model;
   SearchChoice search;
-  std::string first;  ///< searched before it: "species:2", or nothing
+  std::string first;    ///< searched before it: "species:2", or nothing
+  GrowthBudget growth;  ///< the record's; of an L-system as much as its default plant needs
 };
 
 /// Names of groups, and of their targets.
@@ -43,7 +45,7 @@ struct FitsDeclaration {
   std::vector<SpaceDeclaration> spaces = {SpaceDeclaration{}};
   std::vector<std::string> starts = {"auto"};
   std::vector<Seed> seeds = {1};
-  FitRecord record;                     ///< what all runs share: budget, growth, size, view
+  FitRecord record;                     ///< what all runs share: budget, size, view
   std::vector<bool> trained = {false};  ///< to grow into the picture, or not
   int threads = 1;                      ///< of each run; fewer runs at once then
   TargetGroups groups;                  ///< for means; none: no score sheet

@@ -6,6 +6,7 @@
 #include <espalier/core/parameter_table.h>
 #include <espalier/experiments/declaration/experiment_keys.h>
 #include <espalier/experiments/declaration/fit_lists.h>
+#include <espalier/experiments/declaration/known_truth.h>
 #include <espalier/experiments/declaration/toml_values.h>
 #include <espalier/fitting/optimizers/search_method.h>
 #include <espalier/fitting/record/fit_options.h>
@@ -13,6 +14,7 @@
 #include <espalier/fitting/record/search_space.h>
 #include <espalier/fitting/record/species_components.h>
 #include <espalier/fitting/search/space_search.h>
+#include <espalier/fitting/starts/roomy_budget.h>
 #include <espalier/fitting/starts/start_points.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
@@ -50,6 +52,16 @@ void expect_distinct_texts(const TomlSection& section, std::string_view key,
 
 // Targets.
 
+/// Nothing of a drawn front view.
+std::string describe_view(const ViewRecord& record) {
+  const View& view = record.view;
+  std::string words = record.picture.string();
+  if (view.azimuth_deg != 0 || view.elevation_deg != 0)
+    words += fmt::format(":{:g},{:g}", view.azimuth_deg, view.elevation_deg);
+  if (view.projection == Projection::perspective) words += fmt::format(",{:g}", view.field_of_view_deg);
+  return words;
+}
+
 /// A bundled target by name, or a picture by its path from the working directory or the experiment's file.
 fs::path find_picture(const Element& element, const std::string& name) {
   const fs::path bundled = data_path_or_first("targets") / (name + ".png");
@@ -60,19 +72,45 @@ fs::path find_picture(const Element& element, const std::string& name) {
                     closest_name(name, bundled_targets()));
 }
 
-TargetDeclaration read_target_declaration(const Element& element) {
+/// The views that a target lists behind its first one, which the experiment's key `view` says.
+std::vector<ViewRecord> drawn_views(const Element& element, const View& front) {
+  std::vector<ViewRecord> views{{{}, front}};
+  if (!element.section().has("views")) return views;
+  for (const std::string& angles : element.section().texts("views"))
+    views.push_back({{}, parse_angles(element.section(), "views", angles)});
+  return views;
+}
+
+/// The picture without an angle, then those with one, as espalier fit takes them.
+std::vector<ViewRecord> pictured_views(const Element& element, const View& front) {
+  const TomlSection& section = element.section();
+  std::vector<ViewRecord> views;
+  if (section.has("picture") || !section.has("views"))
+    views.push_back({find_picture(element, section.text("picture")), front});
+  if (!section.has("views")) return views;
+  filled_array(section, "views");
+  for (const std::string& text : section.texts("views")) {
+    views.push_back(located(section, "views", [&] { return parse_view(text); }));
+    views.back().picture = find_picture(element, views.back().picture);
+  }
+  return views;
+}
+
+TargetDeclaration read_target_declaration(const Element& element, const View& front) {
   const TomlSection& section = element.section();
   section.expect_only(names_of(target_keys()));
   TargetDeclaration target;
   if (section.has("species")) {
+    if (section.has("picture")) section.fail("picture", "none of a target with a species, which is drawn");
     target.species = section.text("species");
     if (section.has("seed")) target.seed = static_cast<Seed>(whole_between(section, "seed", 0, kLargestSeed));
     target.name = section.text_or("name", fs::path(target.species).stem());
+    target.views = drawn_views(element, front);
     located(section, "species", [&] { return load_preset(target.species); });
     return target;
   }
-  target.picture = find_picture(element, section.text("picture"));
-  target.name = section.text_or("name", target.picture.stem());
+  target.views = pictured_views(element, front);
+  target.name = section.text_or("name", target.views[0].picture.stem());
   return target;
 }
 
@@ -99,18 +137,27 @@ OptimizerDeclaration read_optimizer(const Element& element) {
   return optimizer;
 }
 
-SpaceDeclaration read_space(const Element& element, const FitRecord& shared) {
+/// An L-system's plants are not thinned: without a budget of the user's they get room.
+GrowthBudget growth_of(const TomlSection& fits, const FitRecord& shared, const std::string& model) {
+  const bool is_told = fits.has("max_stems") || fits.has("max_leaves");
+  if (is_told || model == FitRecord{}.model) return shared.growth;
+  return roomy_budget(model_by_name(model), shared.seed, shared.growth);
+}
+
+SpaceDeclaration read_space(const TomlSection& fits, const Element& element, const FitRecord& shared) {
   const TomlSection& section = element.section();
   section.expect_only(names_of(space_keys()));
-  const Model& model = model_by_name(shared.model);
   SpaceDeclaration space;
   space.label = section.text_or("label", "default");
-  if (section.table.size() == 1 && space.label != "default")
-    throw_input_error("{}: got '{}' alone, expected \"default\" or a table with free, fixed or first",
+  if (section.table.size() == 1 && section.has("label") && space.label != "default")
+    throw_input_error("{}: got '{}' alone, expected \"default\" or a table with free, fixed, first or model",
                       element.place(), space.label);
+  space.model = section.has("model") ? find_model(section, section.text("model")) : shared.model;
   space.first = section.text_or("first", "");
   located(element.place(), [&] {
+    const Model& model = model_by_name(space.model);
     FitRecord record = shared;
+    record.model = space.model;
     for (const char* key : {"free", "fixed"})
       if (section.has(key))
         set_from_request(*find_option(std::string("search.") + key), section.node(key), section.source,
@@ -119,7 +166,19 @@ SpaceDeclaration read_space(const Element& element, const FitRecord& shared) {
     if (const int components = parse_search_space(space.first)) bundled_species_space(model, components);
     return make_search_space(model.table(), model.table().defaults(), space.search);
   });
+  space.growth = growth_of(fits, shared, space.model);
   return space;
+}
+
+/// What `check(model, its name)` throws of the model of any space, with its place in front.
+template <typename Check>
+void check_models(const TomlSection& fits, std::string_view key, const FitsDeclaration& declaration,
+                  Check check) {
+  for (const SpaceDeclaration& space : declaration.spaces)
+    located(fits, key, [&] {
+      check(model_by_name(space.model), space.model);
+      return 0;
+    });
 }
 
 }  // namespace
@@ -134,8 +193,12 @@ std::vector<std::string> bundled_targets() {
 }
 
 std::string describe(const TargetDeclaration& target) {
-  if (target.species.empty()) return target.picture.string();
-  return in_braces({fmt::format("species = {}", target.species), fmt::format("seed = {}", target.seed)});
+  std::vector<std::string> parts;
+  if (!target.species.empty())
+    parts = {fmt::format("species = {}", target.species), fmt::format("seed = {}", target.seed)};
+  for (const ViewRecord& view : target.views)
+    if (const std::string words = describe_view(view); !words.empty()) parts.push_back(words);
+  return in_braces(parts);
 }
 
 std::string describe(const OptimizerDeclaration& optimizer) {
@@ -146,6 +209,7 @@ std::string describe(const OptimizerDeclaration& optimizer) {
 
 std::string describe(const SpaceDeclaration& space) {
   std::vector<std::string> parts;
+  if (space.model != FitRecord{}.model) parts.push_back(fmt::format("model = {}", space.model));
   if (!space.search.free.empty())
     parts.push_back(fmt::format("free = [{}]", fmt::join(space.search.free, ", ")));
   if (!space.search.fixed.empty()) parts.push_back("fixed = " + in_braces(assignments(space.search.fixed)));
@@ -155,7 +219,8 @@ std::string describe(const SpaceDeclaration& space) {
 
 void read_targets(const TomlSection& fits, FitsDeclaration& declaration) {
   for (const toml::node& node : filled_array(fits, "targets"))
-    declaration.targets.push_back(read_target_declaration(Element(fits, "targets", node, "picture")));
+    declaration.targets.push_back(
+        read_target_declaration(Element(fits, "targets", node, "picture"), declaration.record.views[0].view));
   expect_distinct(
       fits, "targets", declaration.targets, [](const TargetDeclaration& target) { return target.name; },
       [](const TargetDeclaration& target) { return describe(target); });
@@ -192,7 +257,8 @@ void read_objectives(const TomlSection& fits, FitsDeclaration& declaration) {
 void read_spaces(const TomlSection& fits, FitsDeclaration& declaration) {
   declaration.spaces.clear();
   for (const toml::node& node : filled_array(fits, "spaces"))
-    declaration.spaces.push_back(read_space(Element(fits, "spaces", node, "label"), declaration.record));
+    declaration.spaces.push_back(
+        read_space(fits, Element(fits, "spaces", node, "label"), declaration.record));
   expect_distinct(
       fits, "spaces", declaration.spaces, [](const SpaceDeclaration& space) { return space.label; },
       [](const SpaceDeclaration& space) { return describe(space); });
@@ -201,21 +267,24 @@ void read_spaces(const TomlSection& fits, FitsDeclaration& declaration) {
 void read_starts(const TomlSection& fits, FitsDeclaration& declaration) {
   filled_array(fits, "starts");
   declaration.starts = fits.texts("starts");
-  const ParameterTable& table = model_by_name(declaration.record.model).table();
   for (const std::string& start : declaration.starts)
-    located(fits, "starts", [&] { return presets_as_written(table, parse_start(start)); });
+    check_models(fits, "starts", declaration, [&](const Model& model, const std::string& name) {
+      presets_as_written(model.table(), parse_start(start_of_model(start, name)));
+    });
   expect_distinct_texts(fits, "starts", declaration.starts);
 }
 
 void read_trained(const TomlSection& fits, FitsDeclaration& declaration) {
   declaration.trained.clear();
-  const std::string& model = declaration.record.model;
   for (const toml::node& node : filled_array(fits, "trained")) {
     const auto value = node.value_exact<bool>();
     if (!value) fits.fail("trained", "true and false");
-    if (*value && !model_by_name(model).can_train())
-      fits.fail("trained", fmt::format("false alone: {} cannot grow into a picture", model));
     declaration.trained.push_back(*value);
+    if (*value)
+      check_models(fits, "trained", declaration, [](const Model& model, const std::string& name) {
+        if (!model.can_train())
+          throw_input_error("got true, expected false alone: {} cannot grow into a picture", name);
+      });
   }
   if (std::ranges::count(declaration.trained, true) > 1 || std::ranges::count(declaration.trained, false) > 1)
     fits.fail("trained", "true and false, each once");
@@ -234,6 +303,30 @@ void read_seeds(const TomlSection& fits, FitsDeclaration& declaration) {
     declaration.seeds.push_back(static_cast<Seed>(*seed));
   }
   expect_distinct_texts(fits, "seeds", declaration.seeds);
+}
+
+View parse_angles(const TomlSection& section, std::string_view key, const std::string& text) {
+  constexpr std::string_view kNoFile = "-:";
+  try {
+    return parse_view(std::string(kNoFile) + text).view;
+  } catch (const FieldError& error) {
+    const bool is_no_view = error.complaint.find(kNoFile) != std::string::npos;
+    throw_input_error(
+        "{}: {}", location(section, key),
+        is_no_view ? fmt::format("got '{}', expected AZIMUTH,ELEVATION in degrees", text) : error.complaint);
+  }
+}
+
+std::string find_model(const TomlSection& section, const std::string& name) {
+  std::error_code error;
+  if (!name.ends_with(".lsys")) return name;
+  const std::string found = beside_the_file(section, name);
+  return fs::is_regular_file(found, error) ? fs::absolute(found).string() : name;
+}
+
+SpaceDeclaration usual_space(const TomlSection& fits, const FitRecord& shared) {
+  const toml::value<std::string> name("default");
+  return read_space(fits, Element(fits, "spaces", name, "label"), shared);
 }
 
 TargetGroups groups_in(const TomlSection& fits) {

@@ -26,6 +26,16 @@ std::string describe(const TargetDeclaration& target);
 std::string describe(const OptimizerDeclaration& optimizer);
 std::string describe(const SpaceDeclaration& space);
 
+/// "AZIMUTH,ELEVATION" or with a field of view behind them. Throws InputError with the place of `key`.
+View parse_angles(const TomlSection& section, std::string_view key, const std::string& text);
+
+/// An L-system's file lies beside the experiment's or is named from the working directory; else the name of a
+/// bundled one, or of another model.
+std::string find_model(const TomlSection& section, const std::string& name);
+
+/// The space of an experiment that names none. `fits` says whether it names a growth budget.
+SpaceDeclaration usual_space(const TomlSection& fits, const FitRecord& shared);
+
 TargetGroups groups_in(const TomlSection& fits);
 
 }  // namespace espalier

@@ -84,8 +84,7 @@ std::string angles_of(const FitsDeclaration& declaration) {
 }
 
 void read_front_view(const TomlSection& fits, FitsDeclaration& declaration) {
-  declaration.record.views[0].view =
-      located(fits, "view", [&] { return parse_view("picture:" + fits.text("view")).view; });
+  declaration.record.views[0].view = parse_angles(fits, "view", fits.text("view"));
 }
 
 std::vector<FitsKey> keys_of_scores() {
@@ -109,7 +108,7 @@ std::vector<FitsKey> keys_of_scores() {
       number_key({"threads", "", "", "of each run; fewer runs at once then"}, &FitsDeclaration::threads, 1,
                  1024),
       {{"view", "AZIMUTH,ELEVATION[,FIELD_OF_VIEW], degrees", "'0,0'", "where pictures are taken from"},
-       read_front_view,
+       nullptr,  // before the targets, which have it
        unchanged<FitsDeclaration>(angles_of)},
   };
 }
@@ -171,6 +170,7 @@ FitRecord read_shared_record(const TomlSection& fits) {
                     set_from_request(option, fits.node(key), fits.source, record);
                 check_record(record);
               });
+  record.model = find_model(fits, record.model);
   located(place_of(fits, "model"), [&] { return &model_by_name(record.model); });
   return record;
 }
@@ -178,7 +178,10 @@ FitRecord read_shared_record(const TomlSection& fits) {
 void check_starts_beside_truth(const TomlSection& fits, const FitsDeclaration& declaration) {
   for (const std::string& start : declaration.starts)
     for (const TargetDeclaration& target : declaration.targets)
-      located(place_of(fits, "starts"), [&] { return start_beside_truth(start, target.species); });
+      for (const SpaceDeclaration& space : declaration.spaces)
+        located(place_of(fits, "starts"), [&] {
+          return start_beside_truth(start_of_model(start, space.model), target.species, space.model);
+        });
 }
 
 }  // namespace
@@ -191,6 +194,8 @@ const std::vector<FitsKey>& fits_keys() {
 const std::vector<KeyDescription>& target_keys() {
   static const std::vector<KeyDescription> keys{
       {"picture", "a file, or a bundled name", "", "a string alone is this"},
+      {"views", "as `--views` of a fit: FILE:AZIMUTH,ELEVATION; of a species angles alone", "",
+       "more pictures of the tree, from other sides"},
       {"species", "a preset", "", "its silhouette instead of a picture: the parameters are known"},
       {"seed", "a whole number", fmt::format("{}", TargetDeclaration{}.seed), "of the species' tree"},
       {"name", "a string", "the file's or the species'", "in tables"},
@@ -209,6 +214,7 @@ const std::vector<KeyDescription>& optimizer_keys() {
 const std::vector<KeyDescription>& space_keys() {
   static const std::vector<KeyDescription> keys{
       {"label", "a string", "'default'", "in tables"},
+      {"model", "as `model` above", "that", "whose parameters are searched"},
       {"free", "names of parameters, with `*`", "what the model frees", "to be searched"},
       {"fixed", "a table of parameters and values", "", "to be held"},
       {"first", "`species:K`", "", "searched first: K coordinates of the species space"},
@@ -221,6 +227,8 @@ FitsDeclaration read_fits(const TomlSection& fits) {
   FitsDeclaration declaration;
   declaration.record = read_shared_record(fits);
   declaration.objectives = {declaration.record.objective};
+  if (fits.has("view")) read_front_view(fits, declaration);
+  declaration.spaces = {usual_space(fits, declaration.record)};
   read_keys(fits, fits_keys(), declaration);
   if (declaration.exclude_truth) check_starts_beside_truth(fits, declaration);
   return declaration;

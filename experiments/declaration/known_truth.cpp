@@ -26,8 +26,14 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 }  // namespace
 
-std::string start_beside_truth(const std::string& start, const std::string& species) {
+std::string start_of_model(const std::string& start, const std::string& model) {
+  return start == "auto" && model.ends_with(".lsys") ? "defaults" : start;
+}
+
+std::string start_beside_truth(const std::string& start, const std::string& species,
+                               const std::string& model) {
   if (species.empty()) return start;
+  if (model.ends_with(".lsys") && load_preset(species).model != model) return start;
   const StartNames names = parse_start(start);
   const bool is_automatic = names.source == StartSource::bundled;
   if (is_automatic && (contains(names.left_out, species) || !contains(bundled_presets(), species)))

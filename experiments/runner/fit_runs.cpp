@@ -24,35 +24,46 @@ namespace {
 constexpr int kDrawnTargetPx = 512;
 constexpr double kShortestTreeM = 0.01;
 
-/// A target as fits see it: a picture, and how tall its tree is where that is known.
+/// A target as fits see it: pictures, and how tall its tree is where that is known.
 struct ReadyTarget {
   TargetDeclaration declaration;
-  fs::path picture;
+  std::vector<ViewRecord> views;
   std::optional<double> height_m;
 };
 
-/// Draws the silhouette of a species, unless an earlier execution did.
-ReadyTarget draw_target(const TargetDeclaration& target, const fs::path& directory) {
+Plant grow_target(const TargetDeclaration& target) {
   const Preset preset = load_preset(target.species);
   Plant plant;
   if (!model_by_name(preset.model).generate(preset.values, target.seed, {}, plant).grown)
     throw_input_error("target '{}': got a tree beyond the growth budget, expected a smaller one",
                       target.name);
-  const Bounds box = bounds(plant);
-  if (!(box.upper.z > kShortestTreeM))
+  if (!(bounds(plant).upper.z > kShortestTreeM))
     throw_input_error("target '{}': got a tree without height, expected one to draw", target.name);
-  Mask mask;
-  make_embree_renderer()->draw(plant, frame_bounds(box, {}, kDrawnTargetPx, kDrawnTargetPx), mask);
-  const fs::path path = fs::absolute(directory / "targets" / (directory_name(target.name) + ".png"));
-  if (!fs::exists(path)) {
+  return plant;
+}
+
+/// Draws the silhouettes of a species, unless an earlier execution did. No other target's name has a '+'.
+ReadyTarget draw_target(const TargetDeclaration& target, const fs::path& directory) {
+  const Plant plant = grow_target(target);
+  const Bounds box = bounds(plant);
+  ReadyTarget ready{target, target.views, box.upper.z};
+  for (std::size_t i = 0; i < ready.views.size(); ++i) {
+    const std::string number = i == 0 ? "" : fmt::format("+{}", i + 1);
+    const fs::path path =
+        fs::absolute(directory / "targets" / (directory_name(target.name) + number + ".png"));
+    ready.views[i].picture = path;
+    if (fs::exists(path)) continue;
+    Mask mask;
+    make_embree_renderer()->draw(
+        plant, frame_bounds(box, target.views[i].view, kDrawnTargetPx, kDrawnTargetPx), mask);
     fs::create_directories(path.parent_path());
     write_mask_png(path, mask);
   }
-  return {target, path, box.upper.z};
+  return ready;
 }
 
 ReadyTarget ready_target(const TargetDeclaration& target, const fs::path& directory) {
-  if (target.species.empty()) return {target, target.picture, std::nullopt};
+  if (target.species.empty()) return {target, target.views, std::nullopt};
   return draw_target(target, directory);
 }
 
@@ -118,7 +129,7 @@ Measured measure(const FitResult& result, const FitCell& cell) {
     const UnseenTrees unseen(cell.record, cell.unseen_seeds);
     append(measured.results, "unseen_", unseen.score(result.values));
     if (!cell.tree.species.empty())
-      append(measured.results, "truth_", unseen.score(unseen.truth(cell.tree.species)));
+      append(measured.results, "truth_", score_truth(cell.record, cell.tree.species, cell.unseen_seeds));
   }
   if (cell.siblings > 0 && !cell.tree.species.empty())
     append(measured.results, score_sides(cell.record, result, cell.tree, cell.siblings));
@@ -162,7 +173,7 @@ std::vector<FitCell> expand(const std::vector<FitCell>& cells, const std::string
 
 std::string set_target(FitCell& cell, const ReadyTarget& target) {
   cell.tree = {target.declaration.species, target.declaration.seed};
-  cell.record.views[0].picture = target.picture;
+  cell.record.views = target.views;
   if (target.height_m) cell.record.height_m = target.height_m;
   return target.declaration.name;
 }
@@ -178,12 +189,17 @@ std::string set_objective(FitCell& cell, const std::string& objective) {
 }
 
 std::string set_space(FitCell& cell, const SpaceDeclaration& space) {
+  cell.record.model = space.model;
+  cell.record.growth = space.growth;
   cell.record.search = space.search;
   cell.record.space = space.first;
   return space.label;
 }
 
-std::string set_start(FitCell& cell, const std::string& start) { return cell.record.start = start; }
+std::string set_start(FitCell& cell, const std::string& start) {
+  cell.record.start = start_of_model(start, cell.record.model);
+  return start;
+}
 
 std::string set_trained(FitCell& cell, bool trained) {
   cell.record.train_to_target = trained;
@@ -197,7 +213,7 @@ std::string set_seed(FitCell& cell, Seed seed) {
 
 /// The label stays as it was declared: what is left out differs from target to target.
 void leave_out_truth(FitCell& cell) {
-  cell.record.start = start_beside_truth(cell.record.start, cell.tree.species);
+  cell.record.start = start_beside_truth(cell.record.start, cell.tree.species, cell.record.model);
 }
 
 std::vector<FitCell> all_cells(const FitsDeclaration& fits, const std::vector<ReadyTarget>& targets) {
@@ -230,7 +246,7 @@ void add_runs(const std::vector<FitCell>& cells, Plan& plan) {
 Plan name_fits(const FitsDeclaration& fits) {
   std::vector<ReadyTarget> targets;
   targets.reserve(fits.targets.size());
-  for (const TargetDeclaration& target : fits.targets) targets.push_back({target, target.picture, {}});
+  for (const TargetDeclaration& target : fits.targets) targets.push_back({target, target.views, {}});
   Plan plan;
   add_runs(all_cells(fits, targets), plan);
   return plan;

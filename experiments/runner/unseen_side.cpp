@@ -3,6 +3,8 @@
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/image/reading/frame.h>
 #include <espalier/models/grow_preset.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
 
 namespace espalier {
 
@@ -46,7 +48,10 @@ SideScores score_sides(const FitRecord& record, const FitResult& result, const K
   FitTask task = two_sided_task(record, tree);
   SideScores scores;
   std::tie(scores.front_iou, scores.side_iou) = ious(task, result.seed, result.values, result.overrides);
-  const UnseenTrees species(record, siblings);
+  FitRecord of_species = record;  // whose model need not be the fit's
+  of_species.model = load_preset(tree.species).model;
+  task.model = &model_by_name(of_species.model);
+  const UnseenTrees species(of_species, siblings);
   const ParameterValues truth = species.truth(tree.species);
   task.growth = {};
   for (const Seed seed : species.seeds()) {

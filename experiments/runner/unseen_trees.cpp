@@ -2,6 +2,7 @@
 #include <espalier/fitting/starts/start_points.h>
 #include <espalier/fitting/task/plant_scorer.h>
 #include <espalier/fitting/task/record_task.h>
+#include <espalier/models/preset.h>
 
 namespace espalier {
 
@@ -35,6 +36,12 @@ ParameterValues UnseenTrees::truth(const std::string& species) const {
                            kUnseenBudget, target_height_m(record_), task_.plant_seeds.front())
       .front()
       .values;
+}
+
+UnseenScore score_truth(FitRecord record, const std::string& species, int count) {
+  record.model = load_preset(species).model;
+  const UnseenTrees trees(std::move(record), count);
+  return trees.score(trees.truth(species));
 }
 
 }  // namespace espalier

@@ -30,4 +30,7 @@ class UnseenTrees {
   FitTask task_;
 };
 
+/// What the true parameters reach with the seeds that a fit of this record never uses, whatever its model.
+UnseenScore score_truth(FitRecord record, const std::string& species, int count);
+
 }  // namespace espalier

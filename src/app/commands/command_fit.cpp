@@ -17,6 +17,7 @@
 #include <espalier/core/field_error.h>
 #include <espalier/fitting/run/fit.h>
 #include <espalier/fitting/run/full_size.h>
+#include <espalier/fitting/starts/roomy_budget.h>
 #include <espalier/models/models.h>
 
 namespace espalier {
@@ -76,17 +77,6 @@ void set_branch_rounds(const RecordWords& words, FitRecord& record) {
                       option_of("fit_seeds"), record.fit_seeds);
 }
 
-/// Plants of other models cannot be thinned: a budget that their default plant keeps with room to spare.
-GrowthBudget roomy_budget(const std::string& model_name, Seed seed, GrowthBudget budget) {
-  constexpr double kRoom = 3;
-  const Model& model = model_by_name(model_name);
-  Plant plant;
-  if (!model.generate(model.table().defaults(), seed, {}, plant).grown) return budget;
-  budget.max_stems = std::max(budget.max_stems, kRoom * static_cast<double>(plant.stems.size()));
-  budget.max_leaves = std::max(budget.max_leaves, kRoom * static_cast<double>(plant.leaves.size()));
-  return budget;
-}
-
 FitRecord new_record(const FitArguments& arguments) {
   const RecordWords& words = arguments.words;
   FitRecord record = default_request();
@@ -97,7 +87,7 @@ FitRecord new_record(const FitArguments& arguments) {
   if (record.model != FitRecord{}.model) {
     if (!words.has("start")) record.start = "defaults";
     if (!words.has("growth.max_stems") && !words.has("growth.max_leaves"))
-      record.growth = roomy_budget(record.model, record.seed, record.growth);
+      record.growth = roomy_budget(model_by_name(record.model), record.seed, record.growth);
   }
   set_branch_rounds(words, record);
   return record;

@@ -161,6 +161,49 @@ TEST(ExperimentCommand, ASheetThatGrowsKeepsItsPicturesAtTheirPlaces) {
   EXPECT_NE(read_text_file(runs / "row1-column1" / "picture.png"), picture);
 }
 
+TEST(ExperimentCommand, LSystemsAndSeveralViewsAreFittedAndReported) {
+  const fs::path study =
+      file_with("study.toml",
+                "[fits]\ntargets = [{species = 'small_pine', seed = 2, views = ['90,0']}, 'oc_evergreen']\n"
+                "spaces = ['default', {label = 'own', model = 'own.lsys'}]\nevaluations = 40\nsize = 32\n"
+                "unseen_seeds = 2\nsiblings = 2\n");
+  fs::copy_file(ESPALIER_SOURCE_DIR "/src/lsystem/models/small_pine.lsys", study.parent_path() / "own.lsys");
+  const fs::path out = fresh_folder("lsystem_study") / "out";
+  const ProgramRun run = run_espalier(run_arguments(study, out));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const CsvTable results = read_csv(out / "results.csv");
+  ASSERT_EQ(results.rows.size(), 4u);
+  for (std::size_t row = 0; row < 4; ++row)
+    EXPECT_EQ(results.text(row, "status"), "done") << results.text(row, "error");
+  EXPECT_EQ(results.text(0, "truth_iou"), results.text(1, "truth_iou")) << "the tree's, whatever is fitted";
+  EXPECT_EQ(results.text(0, "sibling_side_iou"), results.text(1, "sibling_side_iou"));
+  EXPECT_TRUE(fs::exists(out / "targets" / "small_pine+2.png"));
+  const std::string record = read_text_file(out / "runs" / results.text(1, "run") / "run.toml");
+  EXPECT_THAT(record, HasSubstr("small_pine+2.png"));
+  EXPECT_THAT(record, HasSubstr((study.parent_path() / "own.lsys").string()));
+  const ProgramRun report = run_espalier("experiment report '" + out.string() + "'");
+  EXPECT_EQ(report.exit_code, 0) << report.err;
+}
+
+/// The experiments of docs/experiments.md, with few evaluations.
+TEST(ExperimentCommand, SearchesOfTheSpeciesSpaceKindsAndTwoObjectivesAreReported) {
+  const std::string small = "evaluations = 150\nsize = 32\nmax_stems = 300\nmax_leaves = 1000\n";
+  const std::string studies[] = {
+      "targets = ['oc_palm']\nspaces = ['default', {label = 'species first', first = 'species:2'}]\n",
+      "targets = ['oc_palm', 'tr_birch']\nkind = 'auto'\n",
+      "targets = ['tr_birch', 'oc_palm']\noptimizers = ['LN_SBPLX', 'hewitt_ga']\nobjectives = ['iou', "
+      "'truncated_distance']\nseeds = 2\n",
+  };
+  for (const std::string& study : studies) {
+    const fs::path out = fresh_folder("shown") / "out";
+    ASSERT_EQ(run_espalier(run_arguments(file_with("shown.toml", "[fits]\n" + study + small), out)).exit_code,
+              0);
+    const ProgramRun report = run_espalier("experiment report '" + out.string() + "'");
+    EXPECT_EQ(report.exit_code, 0) << study << report.err;
+    EXPECT_TRUE(fs::exists(out / "report" / "index.html"));
+  }
+}
+
 TEST(ExperimentCommand, AFailedRunIsARowAndTheOthersGoOn) {
   const fs::path study = file_with("study.toml",
                                    "[fits]\ntargets = ['oc_palm']\noptimizers = ['GN_AGS', 'random_search']\n"

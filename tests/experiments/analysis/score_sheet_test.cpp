@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <espalier/experiments/runner/csv.h>
 #include <espalier/experiments/declaration/experiment.h>
+#include <espalier/experiments/runner/csv.h>
 
 #include "support/run_espalier.h"
 

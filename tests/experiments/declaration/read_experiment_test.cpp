@@ -187,6 +187,74 @@ TEST(ReadExperiment, FixedParametersTakeNamesOfChoices) {
   EXPECT_EQ(fixed("'ovate'"), fixed("1"));
 }
 
+TEST(ReadExperiment, AnLSystemLiesBesideTheExperimentOrIsBundled) {
+  const fs::path file = file_with(kFits +
+                                  "model = 'own.lsys'\nspaces = ['default', {label = 'pine', model = "
+                                  "'small_pine.lsys'}, {label = 'wp', model = 'weber_penn'}]\n");
+  fs::copy_file(ESPALIER_SOURCE_DIR "/src/lsystem/models/small_pine.lsys", file.parent_path() / "own.lsys");
+  const FitsDeclaration fits = *read_experiment(file).fits;
+  ASSERT_EQ(fits.spaces.size(), 3u);
+  EXPECT_EQ(fits.spaces[0].model, (file.parent_path() / "own.lsys").string());
+  EXPECT_EQ(fits.spaces[1].model, "small_pine.lsys");
+  EXPECT_EQ(fits.spaces[2].model, "weber_penn");
+  EXPECT_EQ(fits.spaces[2].growth.max_stems, FitRecord{}.growth.max_stems);
+  EXPECT_GE(fits.spaces[1].growth.max_stems, fits.spaces[2].growth.max_stems);
+  const Plan plan = plan_of(read_experiment(file), fresh_folder("lsystem_plan"));
+  EXPECT_EQ(plan.runs.size(), 3u);
+}
+
+TEST(ReadExperiment, ModelsThatCannotDoWhatIsAskedAreRefused) {
+  EXPECT_THAT(error_of(kFits + "model = 'none.lsys'\n"), HasSubstr("study.toml:4: model: got"));
+  EXPECT_THAT(error_of(kFits + "spaces = [{label = 'x', model = 'none.lsys'}]\n"),
+              HasSubstr("study.toml:4: spaces: got"));
+  const std::string pine = "spaces = ['default', {label = 'pine', model = 'small_pine.lsys'}]\n";
+  EXPECT_THAT(error_of(kFits + pine + "starts = ['acer']\n"), HasSubstr("study.toml:5: starts: "));
+  EXPECT_THAT(error_of(kFits + pine + "trained = [true]\n"),
+              AllOf(HasSubstr("study.toml:5: trained: got true"), HasSubstr("small_pine.lsys")));
+  EXPECT_THAT(error_of(kFits + "spaces = [{label = 'x', model = 'small_pine.lsys', free = ['g_scale']}]\n"),
+              HasSubstr("study.toml:4: spaces: "));
+}
+
+TEST(ReadExperiment, ATargetMayHaveSeveralViews) {
+  const auto views = [](const std::string& target) {
+    return read_experiment(file_with("[fits]\nevaluations = 10\nview = '10,5'\ntargets = [" + target + "]\n"))
+        .fits->targets[0];
+  };
+  const TargetDeclaration pictures =
+      views("{picture = 'oc_palm', views = ['fir:90,0', 'oc_palm:180,10,40']}");
+  ASSERT_EQ(pictures.views.size(), 3u);
+  EXPECT_EQ(pictures.name, "oc_palm");
+  EXPECT_EQ(pictures.views[0].view.azimuth_deg, 10);
+  EXPECT_EQ(pictures.views[1].picture.filename(), "fir.png");
+  EXPECT_EQ(pictures.views[1].view.azimuth_deg, 90);
+  EXPECT_EQ(pictures.views[2].view.field_of_view_deg, 40);
+  const TargetDeclaration alone = views("{views = ['fir:90,0']}");
+  ASSERT_EQ(alone.views.size(), 1u);
+  EXPECT_EQ(alone.name, "fir");
+  EXPECT_EQ(alone.views[0].view.azimuth_deg, 90);
+  const TargetDeclaration drawn = views("{species = 'palm', views = ['90,0']}");
+  ASSERT_EQ(drawn.views.size(), 2u);
+  EXPECT_EQ(drawn.views[0].view.elevation_deg, 5);
+  EXPECT_EQ(drawn.views[1].view.azimuth_deg, 90);
+}
+
+TEST(ReadExperiment, ViewsThatAreNoneAreRefused) {
+  const std::pair<const char*, const char*> bad[] = {
+      {"{picture = 'oc_palm', views = []}", "views: got an array of 0"},
+      {"{picture = 'oc_palm', views = ['nowhere:90,0']}", "got 'nowhere'"},
+      {"{picture = 'oc_palm', views = ['fir:90']}", "got 'fir:90', expected FILE:AZIMUTH,ELEVATION"},
+      {"{picture = 'oc_palm', views = 'fir:90,0'}", "views: got 'fir:90,0'"},
+      {"{species = 'palm', views = ['90']}", "got '90', expected AZIMUTH,ELEVATION in degrees"},
+      {"{species = 'palm', views = ['500,0']}", "got 500, expected an azimuth"},
+      {"{species = 'palm', picture = 'oc_palm'}", "picture: got 'oc_palm', expected none"},
+      {"{name = 'x'}", "picture"},
+  };
+  for (const auto& [target, words] : bad)
+    EXPECT_THAT(error_of("[fits]\ntargets = [" + std::string(target) + "]\n"),
+                AllOf(HasSubstr("study.toml:2: "), HasSubstr(words)))
+        << target;
+}
+
 TEST(ReadExperiment, ASettingIsADecimalNumberAWordOrToml) {
   const auto record = [](const std::string& setting) {
     return read_experiment(file_with(kFits), {setting}).fits->record;
