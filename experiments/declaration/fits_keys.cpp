@@ -102,6 +102,14 @@ std::vector<FitsKey> keys_of_scores() {
        },
        unchanged<FitsDeclaration>(
            [](const FitsDeclaration& declaration) { return declaration.exclude_truth; })},
+      {{"posterior", "true or false", "false",
+        "also what each target's picture says of its tree: posteriors.csv, posteriors/TARGET (posterior.md)"},
+       [](const TomlSection& fits, FitsDeclaration& declaration) {
+         declaration.posterior = fits.flag("posterior");
+       },
+       nullptr},
+      number_key({"posterior_simulations", "", "", "plants of the prior that it is computed from"},
+                 &FitsDeclaration::posterior_simulations, 2000, 1'000'000),
       {{"groups", "a table of names, each with its targets", "", "means over groups, a score sheet"},
        read_groups_of_targets,
        nullptr},

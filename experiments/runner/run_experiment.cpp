@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -6,6 +8,8 @@
 #include <numeric>
 #include <thread>
 
+#include <espalier/experiments/posteriors/target_posteriors.h>
+#include <espalier/experiments/runner/drawn_targets.h>
 #include <espalier/experiments/runner/fit_runs.h>
 #include <espalier/experiments/runner/growth_runs.h>
 #include <espalier/experiments/runner/move_runs.h>
@@ -131,6 +135,45 @@ void declare(const fs::path& directory, const Experiment& experiment) {
   write_declaration(directory, experiment);
 }
 
+/// The names of the targets' directories, which differ as their names do.
+std::vector<PosteriorTarget> posterior_targets(const FitsDeclaration& fits, const fs::path& directory) {
+  std::vector<PosteriorTarget> targets;
+  for (const ReadyTarget& target : draw_targets(fits, directory)) {
+    PosteriorTarget& next = targets.emplace_back();
+    next.name = target.declaration.name;
+    next.directory = directory_name(next.name);
+    next.picture = target.views.front().picture;
+    next.height_m = target.height_m.value_or(fits.record.height_m.value_or(next.height_m));
+    if (!target.declaration.species.empty())
+      next.truth = TrueTree{target.declaration.species, target.declaration.seed};
+  }
+  return targets;
+}
+
+/// "0.2.0 1a2b3c", as far as the record knows it.
+std::string version_of(const FitRecord& record) {
+  std::string version;
+  for (const char* part : {"espalier", "commit"})
+    if (const auto found = record.versions.find(part); found != record.versions.end())
+      version += (version.empty() ? "" : " ") + found->second;
+  return version;
+}
+
+void compute_posteriors(const FitsDeclaration& fits, const fs::path& directory, const RunnerOptions& options,
+                        std::size_t runs) {
+  const auto on_progress = [&](const std::string& target, std::size_t done, std::size_t wanted) {
+    ExperimentProgress progress{.runs = runs, .done = runs, .seconds_left = {}};
+    progress.posterior = fmt::format("posterior of {}: {} of {} plants", target, done, wanted);
+    options.on_progress(progress);
+    return !options.stop_requested();
+  };
+  write_target_posteriors(directory, posterior_targets(fits, directory),
+                          {.reading = fits.record.target,
+                           .simulations = static_cast<std::size_t>(fits.posterior_simulations),
+                           .version = version_of(fits.record),
+                           .on_progress = on_progress});
+}
+
 int job_count(const Plan& plan, const RunnerOptions& options) {
   if (plan.one_at_a_time) return 1;
   const int processors = static_cast<int>(std::thread::hardware_concurrency());
@@ -165,6 +208,8 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
   threads.clear();
   runner.check();
   write_tables(directory, outcome.plan, outcome.rows);
+  if (experiment.fits && experiment.fits->posterior && !options.stop_requested())
+    compute_posteriors(*experiment.fits, directory, options, outcome.rows.size());
   return outcome;
 }
 

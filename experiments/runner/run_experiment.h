@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <espalier/experiments/runner/experiment_directory.h>
@@ -13,6 +14,7 @@ namespace espalier {
 struct ExperimentProgress {
   std::size_t runs = 0, done = 0, failed = 0;
   std::optional<double> seconds_left;
+  std::string posterior = {};  ///< after the runs: whose posterior is computed, and how far
 };
 
 struct RunnerOptions {

@@ -42,7 +42,7 @@ bool is_size(const ParameterInfo& row) {
 
 PlantPrior::PlantPrior(const Model& model) : model_(&model) {
   for (Preset& preset : bundled_species(model.table().model))
-    if (preset.name != "sphere_tree") species_.push_back(std::move(preset));
+    if (!preset.demonstration) species_.push_back(std::move(preset));
   if (species_.size() < 2)
     throw_input_error("posterior: got model {} with {} bundled species, expected a model with two or more",
                       model.table().model, species_.size());

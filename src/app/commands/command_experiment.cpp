@@ -52,6 +52,7 @@ std::string duration(double seconds) {
 }
 
 std::string progress_text(const ExperimentProgress& progress) {
+  if (!progress.posterior.empty()) return progress.posterior;
   return fmt::format("{} of {} runs done{}{}", progress.done, progress.runs,
                      progress.failed > 0 ? fmt::format(", {} failed", progress.failed) : "",
                      progress.seconds_left ? ", " + duration(*progress.seconds_left) + " left" : "");
