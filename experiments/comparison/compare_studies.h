@@ -28,7 +28,7 @@ struct StudyComparison {
 /// both, and where a target of one name is another mask.
 StudyComparison compare_studies(const std::filesystem::path& first, const std::filesystem::path& second);
 
-/// compare.md.
+/// The page.
 std::string comparison_as_markdown(const StudyComparison& comparison);
 
 }  // namespace espalier

@@ -20,6 +20,7 @@
 #include <espalier/experiments/analysis/report.h>
 #include <espalier/experiments/comparison/compare_studies.h>
 #include <espalier/experiments/declaration/experiment.h>
+#include <espalier/experiments/export/export_study.h>
 #include <espalier/experiments/runner/run_experiment.h>
 #include <espalier/experiments/runner/summary_table.h>
 
@@ -176,6 +177,25 @@ void add_compare_command(CLI::App& experiment) {
   command->callback([arguments] { compare(*arguments); });
 }
 
+struct ExportArguments {
+  std::string directory, format, out;
+};
+
+void add_export_command(CLI::App& experiment) {
+  CLI::App* command = experiment.add_subcommand(
+      "export", "Write the runs of fits for tools that compare optimisers: IOHanalyzer, COCO's cocopp");
+  const auto arguments = std::make_shared<ExportArguments>();
+  command->add_option("directory", arguments->directory, "directory of an experiment: runs/NAME")->required();
+  command->add_option("--format", arguments->format, "iohprofiler or coco")
+      ->required()
+      ->check(CLI::IsMember(export_formats()));
+  command->add_option("--out", arguments->out, "directory to make: a folder a method")->required();
+  command->callback([arguments] {
+    for (const fs::path& folder : export_study(arguments->directory, arguments->format, arguments->out))
+      fmt::print("{}\n", folder.string());
+  });
+}
+
 void add_run_command(CLI::App& experiment) {
   CLI::App* command = experiment.add_subcommand("run", "Run what is left of an experiment");
   const auto arguments = std::make_shared<RunArguments>();
@@ -197,12 +217,13 @@ void add_run_command(CLI::App& experiment) {
 
 void add_experiment_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("experiment", "Run, report, check and compare experiments declared as data");
+      app.add_subcommand("experiment", "Run, report, check, compare and export experiments declared as data");
   command->require_subcommand(1);
   add_run_command(*command);
   add_report_command(*command);
   add_check_command(*command);
   add_compare_command(*command);
+  add_export_command(*command);
 }
 
 }  // namespace espalier
