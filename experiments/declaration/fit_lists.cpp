@@ -40,6 +40,7 @@ std::string in_braces(const std::vector<std::string>& parts) {
 
 std::vector<std::string> assignments(const std::map<std::string, double>& values) {
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   for (const auto& [name, value] : values) texts.push_back(fmt::format("{} = {:g}", name, value));
   return texts;
 }

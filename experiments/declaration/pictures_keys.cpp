@@ -54,6 +54,7 @@ PictureChange read_change(const TomlSection& section, const std::string& species
 
 std::string describe_change(const PictureChange& change) {
   std::vector<std::string> parts;
+  parts.reserve(change.set.size() + 3);
   for (const auto& [name, value] : change.set) parts.push_back(fmt::format("{} = {:g}", name, value));
   if (!change.species.empty()) parts.push_back("species = " + change.species);
   if (!change.blend_with.empty())

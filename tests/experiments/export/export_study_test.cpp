@@ -1,5 +1,5 @@
 // What is exported is read back by the rules of the tools that it is for (IOHanalyzer's readFiles.R; cocopp's
-// DataSet and its data formats), and is what the traces say.
+// data sets and data formats), and is what the traces say.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
