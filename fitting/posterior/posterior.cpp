@@ -54,18 +54,20 @@ Eigen::MatrixXd rows_of(const Eigen::MatrixXd& matrix, const std::vector<std::si
   return chosen;
 }
 
-/// Each draw's y, less what its offset from the picture makes of it: the offset times the slope of weighted least
-/// squares, with a trace of a ridge for components in which the neighbours do not differ.
-Eigen::MatrixXd adjusted(const Eigen::MatrixXd& offsets, const Eigen::VectorXd& weights,
-                         const Eigen::MatrixXd& y) {
+/// Each draw's y, less what its offset from the picture makes of it: the line of weighted least squares at the picture,
+/// with the draw's residual. A trace of a ridge is for components in which the neighbours do not differ. Residuals are as much
+/// too small as the line has been fitted to them, and made so much larger.
+Eigen::MatrixXd adjusted(const Eigen::MatrixXd& offsets, const Eigen::VectorXd& weights, const Eigen::MatrixXd& y) {
   constexpr double kTrace = 1e-6;
   const Eigen::RowVectorXd mean_offset = weights.transpose() * offsets, mean_y = weights.transpose() * y;
-  const Eigen::MatrixXd x = offsets.rowwise() - mean_offset;
+  const Eigen::MatrixXd x = offsets.rowwise() - mean_offset, from_mean = y.rowwise() - mean_y;
   Eigen::MatrixXd normal = x.transpose() * weights.asDiagonal() * x;
   normal.diagonal().array() += kTrace;
-  const Eigen::MatrixXd slopes =
-      normal.ldlt().solve(x.transpose() * weights.asDiagonal() * (y.rowwise() - mean_y));
-  return y - offsets * slopes;
+  const Eigen::MatrixXd slopes = normal.ldlt().solve(x.transpose() * weights.asDiagonal() * from_mean);
+  const double draws = 1 / weights.squaredNorm();  // as many of equal weight
+  const double free_draws = std::max(1.0, draws - static_cast<double>(offsets.cols()) - 1);
+  const Eigen::RowVectorXd at_picture = mean_y - mean_offset * slopes;
+  return (std::sqrt(draws / free_draws) * (from_mean - x * slopes)).rowwise() + at_picture;
 }
 
 }  // namespace

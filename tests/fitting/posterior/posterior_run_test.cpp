@@ -9,6 +9,7 @@
 #include <espalier/core/files.h>
 #include <espalier/fitting/posterior/posterior_run.h>
 #include <espalier/fitting/posterior/simulations/plant_simulator.h>
+#include <espalier/fitting/posterior/simulations/reference_table.h>
 #include <espalier/models/models.h>
 
 #include "support/temporary_folders.h"
@@ -109,6 +110,38 @@ TEST(PosteriorRun, OfTreesOfThePriorIsSeldomUnlikely) {
     unlikely += !compute_posterior(small_request(), tree_of(i), fresh_folder("posterior_trees"), 0, always)
                      .check.is_likely();
   EXPECT_LE(unlikely, 1);
+}
+
+/// Mean share of the unknowns of trees outside of the table that lie in their 90 % intervals, these narrowed.
+double coverage_90(double narrowed) {
+  constexpr std::uint64_t kTrees = 120;
+  static const PlantPrior prior(model_by_name("weber_penn"));
+  const ReferenceTable table = read_table(shared_table(), prior, 1, 10);
+  const auto rows = static_cast<Eigen::Index>(kLeastTableSize);
+  const PosteriorEstimator estimator(table.unknowns.topRows(rows), table.summaries.topRows(rows));
+  PlantSimulator simulator(prior, 10);
+  double held = 0, counted = 0;
+  for (std::uint64_t i = 0; i < kTrees; ++i) {
+    Simulation tree;
+    if (!simulator.simulate(prior.draw(child_key(root_key(99), i)), tree)) continue;
+    const Posterior posterior = estimator.estimate(tree.summaries);
+    for (std::size_t k = 0; k < tree.unknowns.size(); ++k) {
+      const double middle = posterior_quantile(posterior, k, 0.5);
+      const double lower = middle + narrowed * (posterior_quantile(posterior, k, 0.05) - middle);
+      const double upper = middle + narrowed * (posterior_quantile(posterior, k, 0.95) - middle);
+      held += lower <= tree.unknowns[k] && tree.unknowns[k] <= upper ? 1 : 0;
+      counted += 1;
+    }
+  }
+  return held / counted;
+}
+
+/// The large version is experiments/posterior_calibration.cpp.
+TEST(PosteriorRun, IntervalsHoldTheTreesOfThePriorAndNarrowerOnesDoNot) {
+  compute_posterior(small_request(), tree_of(1), fresh_folder("posterior_coverage"), 0,
+                    always);  // makes the table
+  EXPECT_NEAR(coverage_90(1), 0.9, 0.025);
+  EXPECT_LT(coverage_90(2.0 / 3), 0.82);
 }
 
 TEST(PosteriorRun, RefusesTooFewSimulationsAndHeightsThatAreNone) {
