@@ -22,8 +22,9 @@
 #include <espalier/render/scanlines/scanline_renderer.h>
 #include <espalier/render/shading/shaded.h>
 
-// Fits: pictures to fit, how alike two masks are, optimisers, blends, runs.
+// Fits: pictures to fit, how alike two masks are, optimisers, blends, runs; posteriors.
 #include <espalier/fitting/optimizers/search_method.h>
+#include <espalier/fitting/posterior/posterior_run.h>
 #include <espalier/fitting/run/fit.h>
 #include <espalier/fitting/species_space/blend.h>
 #include <espalier/image/measures/compare.h>
