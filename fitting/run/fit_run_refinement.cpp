@@ -90,7 +90,7 @@ void FitRun::add_to_trace(const RoundRow& row) {
   state_.best.score = row.score;
   state_.best.values = state_.branches.best().values;
   state_.best_metrics = row.metrics;
-  state_.trace.add_round(scorer_.evaluations() + row.steps, row.seconds, improved, row.score, row.metrics,
+  state_.trace.add_round(scorer_.evaluations(), row.steps, row.seconds, improved, row.score, row.metrics,
                          row.stage);
 }
 

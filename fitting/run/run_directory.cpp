@@ -130,7 +130,9 @@ void write_full_size(const fs::path& directory, const FullSize& seen) {
 }
 
 void write_history(const fs::path& directory, const RunState& state) {
-  const LineChart chart = convergence_chart(state.trace.rows());
+  const bool is_priced = expects_leaves(state.task) || state.task.depth_price > 0;
+  const std::string fitness = fitness_in_words(state.task.objective, is_priced ? "prices" : "");
+  const LineChart chart = convergence_chart(state.trace.rows(), fitness);
   write_file_atomically(directory / "trace.csv", trace_to_csv(state.trace.rows()));
   write_file_atomically(directory / "convergence.svg", chart_to_svg(chart));
   write_png(directory / "convergence.png", chart_to_picture(chart));

@@ -9,13 +9,15 @@
 #include <espalier/fitting/record/fit_stages.h>
 #include <espalier/fitting/search/logged_scorer.h>
 #include <espalier/image/measures/metric_table.h>
+#include <espalier/image/measures/objective.h>
 
 namespace espalier {
 
 inline constexpr std::size_t kRowEvaluations = 20;
 
 struct TraceRow {
-  long evaluations = 0;
+  long evaluations = 0;   ///< of starts and searches
+  long branch_steps = 0;  ///< of the refinement, which evaluates nothing but branches
   double seconds = 0;
   bool improved = false;
   double best = 0;                                           ///< fitness of the run so far
@@ -30,7 +32,7 @@ class Trace {
   void add(const ScoredBatch& batch, double best_score, const MaskMetrics& best_metrics,
            FitStage stage = FitStage::search);
   /// A row of a stage whose evaluations are not scored in batches.
-  void add_round(long evaluations, double seconds, bool improved, double best_score,
+  void add_round(long evaluations, long branch_steps, double seconds, bool improved, double best_score,
                  const MaskMetrics& best_metrics, FitStage stage);
   const std::vector<TraceRow>& rows() const { return rows_; }
 
@@ -41,7 +43,12 @@ class Trace {
 
 std::string trace_to_csv(const std::vector<TraceRow>& rows);
 
-/// Fitness over evaluations: the best so far, and the median of each batch.
-LineChart convergence_chart(const std::vector<TraceRow>& rows);
+/// What fitness is made of: "fitness by 0.5 iou + 0.5 gap_iou less prices", in lines for an axis. less: what
+/// is taken from it besides, in words, or empty.
+std::string fitness_in_words(const MaskObjective& objective, const std::string& less);
+
+/// Fitness over evaluations and, after them, steps of the refinement: the best so far, and the median of each
+/// batch. Marked is where starts, search and refinement end.
+LineChart convergence_chart(const std::vector<TraceRow>& rows, const std::string& fitness);
 
 }  // namespace espalier

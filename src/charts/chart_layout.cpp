@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <espalier/charts/chart_layout.h>
 
@@ -10,7 +11,8 @@ namespace espalier {
 namespace {
 
 constexpr float kLeftPx = 96, kRightPx = 24, kTopPx = 16, kLegendRowPx = 24, kBottomPx = 64, kTickPx = 6;
-constexpr Rgb kInk{60, 60, 60}, kGrid{225, 225, 225};
+constexpr float kLinePx = 20;  ///< from one line of a text to the next
+constexpr Rgb kInk{60, 60, 60}, kGrid{225, 225, 225}, kMark{150, 150, 150};
 
 struct Axis {
   double lower, upper;
@@ -30,6 +32,21 @@ struct Axes {
   }
 };
 
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  for (auto end = text.find('\n'); end != text.npos; end = text.find('\n')) {
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(end + 1);
+  }
+  lines.emplace_back(text);
+  return lines;
+}
+
+/// Left of the axis: its ticks, and as many lines as its label has.
+float left_px(const LineChart& chart) {
+  return kLeftPx + kLinePx * static_cast<float>(lines_of(chart.y_label).size() - 1);
+}
+
 /// The range of one coordinate over all lines, never empty.
 std::pair<double, double> range_of(const LineChart& chart, bool horizontal) {
   double lower = INFINITY, upper = -INFINITY;
@@ -44,13 +61,14 @@ std::pair<double, double> range_of(const LineChart& chart, bool horizontal) {
 
 /// Where each line's sample begins in the legend, which takes as many rows above the plot as it needs.
 std::vector<ChartPoint> legend_places(const LineChart& chart) {
-  constexpr float kSamplePx = 32, kLetterPx = 12, kGapPx = 28, kFirstPx = kLeftPx + 12;
+  constexpr float kSamplePx = 32, kLetterPx = 12, kGapPx = 28;
+  const float first_px = left_px(chart) + 12;
   std::vector<ChartPoint> places;
-  ChartPoint next{kFirstPx, kTopPx};
+  ChartPoint next{first_px, kTopPx};
   for (const ChartLine& line : chart.lines) {
     const float width_px = kSamplePx + kLetterPx * static_cast<float>(line.name.size());
-    if (next.x_px > kFirstPx && next.x_px + width_px > static_cast<float>(chart.width_px))
-      next = {kFirstPx, next.y_px + kLegendRowPx};
+    if (next.x_px > first_px && next.x_px + width_px > static_cast<float>(chart.width_px))
+      next = {first_px, next.y_px + kLegendRowPx};
     places.push_back(next);
     next.x_px += width_px + kGapPx;
   }
@@ -63,7 +81,7 @@ Axes make_axes(const LineChart& chart) {
   const double margin = 0.04 * (y_upper - y_lower);
   const float top_px =
       kTopPx + kLegendRowPx + (chart.lines.empty() ? 0 : legend_places(chart).back().y_px - kTopPx);
-  return {{std::min(x_lower, 0.0), x_upper, kLeftPx, static_cast<float>(chart.width_px) - kRightPx},
+  return {{std::min(x_lower, 0.0), x_upper, left_px(chart), static_cast<float>(chart.width_px) - kRightPx},
           {y_lower - margin, y_upper + margin, static_cast<float>(chart.height_px) - kBottomPx, top_px}};
 }
 
@@ -89,6 +107,28 @@ void add_y_ticks(const Axes& axes, ChartLayout& layout) {
     layout.strokes.push_back({{{x + 1, y}, {axes.x.at_upper_px, y}}, kGrid, 1});
     layout.strokes.push_back({{{x - kTickPx, y}, {x, y}}, kInk, 1});
     layout.labels.push_back({{x - kTickPx - 5, y}, fmt::format("{:g}", tick), TextAnchor::end});
+  }
+}
+
+/// Names stand to the right of their lines, one above the other where lines are close.
+void add_marks(const Axes& axes, const LineChart& chart, ChartLayout& layout) {
+  constexpr float kBesidePx = 11, kGapPx = 12;
+  ChartPoint last{-kLinePx, 0};
+  for (const ChartMark& mark : chart.marks) {
+    const float x = axes.x.to_px(mark.x);
+    layout.strokes.push_back({{{x, axes.y.at_lower_px}, {x, axes.y.at_upper_px}}, kMark, 1});
+    const bool is_close = x - last.x_px < kLinePx;
+    const ChartPoint foot{x, is_close ? last.y_px : axes.y.at_lower_px - kGapPx};
+    layout.labels.push_back({{x + kBesidePx, foot.y_px}, mark.name, TextAnchor::start, true});
+    last = {x, foot.y_px - text_width_px(mark.name) - kGapPx};
+  }
+}
+
+void add_y_label(const LineChart& chart, float middle_y_px, ChartLayout& layout) {
+  float x = 18;
+  for (const std::string& line : lines_of(chart.y_label)) {
+    layout.labels.push_back({{x, middle_y_px}, line, TextAnchor::middle, true});
+    x += kLinePx;
   }
 }
 
@@ -135,12 +175,13 @@ ChartLayout lay_out(const LineChart& chart) {
   add_y_ticks(axes, layout);
   add_x_ticks(axes, layout);
   add_axis_lines(axes, layout);
+  add_marks(axes, chart, layout);
   for (const ChartLine& line : chart.lines) add_line(axes, line, layout);
   add_legend(chart, layout);
   const float middle_x = (axes.x.at_lower_px + axes.x.at_upper_px) / 2;
   const float middle_y = (axes.y.at_lower_px + axes.y.at_upper_px) / 2;
   layout.labels.push_back({{middle_x, static_cast<float>(chart.height_px) - 18}, chart.x_label});
-  layout.labels.push_back({{18, middle_y}, chart.y_label, TextAnchor::middle, true});
+  add_y_label(chart, middle_y, layout);
   return layout;
 }
 

@@ -17,10 +17,17 @@ struct ChartLine {
   std::vector<std::pair<double, double>> points;  ///< in the units of the axes
 };
 
+/// Where something ends or begins: a line from bottom to top, with its name beside it.
+struct ChartMark {
+  std::string name;
+  double x = 0;  ///< in the units of the axis
+};
+
 struct LineChart {
-  std::string x_label, y_label;
+  std::string x_label, y_label;  ///< the latter may have several lines
   std::vector<ChartLine> lines;
   int width_px = 900, height_px = 540;
+  std::vector<ChartMark> marks = {};  ///< by rising x
 };
 
 std::string chart_to_svg(const LineChart& chart);

@@ -52,6 +52,38 @@ TEST(Chart, HigherValuesAreDrawnHigherUp) {
   EXPECT_LT(high_y, low_y - 100);
 }
 
+TEST(Chart, MarksAreLinesFromBottomToTopWithTheirNames) {
+  LineChart chart{"x", "y", {{"line", {}, 2, false, {{0, 0}, {100, 1}}}}};
+  chart.marks = {{"starts end", 1}, {"search ends", 2}, {"all ends", 100}};
+  std::vector<ChartLabel> names;
+  for (const ChartLabel& label : lay_out(chart).labels)
+    if (label.upwards && label.anchor == TextAnchor::start) names.push_back(label);
+  ASSERT_EQ(names.size(), 3u);
+  EXPECT_EQ(names[0].text, "starts end");
+  EXPECT_LT(names[1].at.y_px, names[0].at.y_px - text_width_px("starts end")) << "close marks share no place";
+  EXPECT_EQ(names[2].at.y_px, names[0].at.y_px);
+  EXPECT_LE(names[2].at.x_px, 900 - 7);
+  int from_bottom_to_top = 0;
+  for (const ChartStroke& stroke : lay_out(chart).strokes)
+    from_bottom_to_top += stroke.points.size() == 2 && stroke.points[0].x_px == stroke.points[1].x_px &&
+                          std::fabs(stroke.points[0].y_px - stroke.points[1].y_px) > 400;
+  EXPECT_EQ(from_bottom_to_top, 3);
+}
+
+TEST(Chart, EachLineOfALabelHasItsRoomLeftOfTheAxis) {
+  const auto axis_x = [](const std::string& label) {
+    float x = 0;
+    for (const ChartStroke& stroke : lay_out({"x", label, {}}).strokes)
+      if (stroke.points.size() == 3) x = stroke.points[0].x_px;
+    return x;
+  };
+  EXPECT_EQ(axis_x("one"), 96);
+  EXPECT_EQ(axis_x("one\ntwo\nthree"), 96 + 2 * 20);
+  const std::string svg = chart_to_svg({"x", "one\ntwo", {}});
+  EXPECT_THAT(svg, testing::HasSubstr(">one</text>"));
+  EXPECT_THAT(svg, testing::HasSubstr(">two</text>"));
+}
+
 TEST(Chart, LegendStaysInsideThePictureHoweverManyNames) {
   LineChart chart{"x", "y", {}};
   for (int i = 0; i < 7; ++i) chart.lines.push_back({std::string(20, 'n'), {}, 2, false, {{0, 0}, {1, 1}}});
