@@ -4,6 +4,7 @@
 
 #include <espalier/experiments/analysis/finished_fits.h>
 #include <espalier/experiments/runner/experiment_directory.h>
+#include <espalier/fitting/record/fit_stages.h>
 
 namespace espalier {
 
@@ -17,16 +18,25 @@ bool varies(const CsvTable& results, const std::string& column) {
   return false;
 }
 
+bool is_refinement(const std::string& stage) {
+  return stage == name_of(FitStage::tracing) || stage == name_of(FitStage::branches) ||
+         stage == name_of(FitStage::finish);
+}
+
+/// Without the refinement: in its rows traces of 0.1 have branch steps among the evaluations.
 std::vector<GenerationRow> read_trace(const fs::path& path) {
   const CsvTable trace = read_csv(path);
   std::vector<GenerationRow> rows;
-  for (std::size_t i = 0; i < trace.rows.size(); ++i)
-    rows.push_back({std::lround(trace.number(i, "evaluations")), trace.number(i, "batch_best"),
+  for (std::size_t i = 0; i < trace.rows.size(); ++i) {
+    const std::string stage = trace.has("stage") ? trace.text(i, "stage") : "";
+    if (is_refinement(stage)) break;
+    rows.push_back({stage, std::lround(trace.number(i, "evaluations")), trace.number(i, "batch_best"),
                     trace.number(i, "best")});
+  }
   return rows;
 }
 
-/// The best so far: the finish of a fit refines by another measure than that of the trace, which may fall.
+/// The best so far.
 StepCurve curve_of(const std::vector<GenerationRow>& trace) {
   StepCurve curve;
   for (const GenerationRow& row : trace) {
@@ -67,6 +77,13 @@ std::string method_of(const CsvTable& results, std::size_t row) {
   for (const char* column : {"optimizer", "objective", "space", "start", "trained"})
     if (varies(results, column)) method.append(method.empty() ? "" : ", ").append(results.text(row, column));
   return method.empty() ? results.text(row, "optimizer") : method;
+}
+
+long evaluations_of_starts(const FinishedFit& fit) {
+  long evaluations = 0;
+  for (const GenerationRow& row : fit.trace)
+    if (row.stage == name_of(FitStage::starts)) evaluations = row.evaluations;
+  return evaluations;
 }
 
 std::vector<FinishedFit> read_finished_fits(const fs::path& directory) {

@@ -10,7 +10,9 @@
 
 namespace espalier {
 
+/// A row of the trace before the refinement, whose steps are no evaluations.
 struct GenerationRow {
+  std::string stage;  ///< "starts", "search", …; empty in traces that do not say
   long evaluations = 0;
   double batch_best = 0, best = 0;  ///< fitness
 };
@@ -23,6 +25,9 @@ struct FinishedFit {
   std::vector<GenerationRow> trace;
   StepCurve curve;  ///< of the best fitness
 };
+
+/// Evaluations of the starts; 0 where the trace does not say.
+long evaluations_of_starts(const FinishedFit& fit);
 
 /// Columns of results.csv that methods are compared by, the most telling first: where all runs have one
 /// objective, and where each would be its own judge.

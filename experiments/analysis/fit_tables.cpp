@@ -7,6 +7,7 @@
 #include <espalier/experiments/analysis/rank_tables.h>
 #include <espalier/experiments/runner/plan.h>
 #include <espalier/experiments/statistics/data_profile.h>
+#include <espalier/experiments/statistics/quantiles.h>
 
 namespace espalier {
 
@@ -33,17 +34,31 @@ std::vector<StepCurve> curves_of(const Fits& fits, const std::string& target, co
   return curves;
 }
 
+/// Where the starts of these runs end, in the median; empty where no trace says.
+std::string end_of_starts(const Fits& fits, const std::string& target, const std::string& method) {
+  std::vector<double> ends;
+  for (const FinishedFit& fit : fits)
+    if (!fit.failed && fit.method == method && (target == "all" || fit.target == target) &&
+        evaluations_of_starts(fit) > 0)
+      ends.push_back(static_cast<double>(evaluations_of_starts(fit)));
+  return ends.empty() ? "" : table_number(median(ends));
+}
+
 CsvTable convergence_table(const Fits& fits) {
-  CsvTable table{
-      {"target", "optimizer", "evaluations", "q25", "median", "q75", "runs"}, {}, "convergence.csv"};
+  CsvTable table{{"target", "optimizer", "evaluations", "q25", "median", "q75", "runs", "starts"},
+                 {},
+                 "convergence.csv"};
   const std::vector<long> grid = grid_of(fits);
   std::vector<std::string> targets = in_order(fits, &FinishedFit::target);
   targets.insert(targets.begin(), "all");
   for (const std::string& target : targets)
-    for (const std::string& method : in_order(fits, &FinishedFit::method))
+    for (const std::string& method : in_order(fits, &FinishedFit::method)) {
+      const std::string starts = end_of_starts(fits, target, method);
       for (const QuartileRow& row : quartile_curves(curves_of(fits, target, method), grid))
         table.rows.push_back({target, method, fmt::format("{}", row.evaluations), table_cell(row.q25),
-                              table_cell(row.median), table_cell(row.q75), fmt::format("{}", row.curves)});
+                              table_cell(row.median), table_cell(row.q75), fmt::format("{}", row.curves),
+                              starts});
+    }
   return table;
 }
 
@@ -57,14 +72,14 @@ CsvTable profile_table(const Fits& fits) {
 }
 
 CsvTable generation_table(const Fits& fits) {
-  CsvTable table{{"target", "optimizer", "seed", "evaluations", "generation", "batch_best", "best"},
+  CsvTable table{{"target", "optimizer", "seed", "evaluations", "generation", "batch_best", "best", "stage"},
                  {},
                  "generations.csv"};
   for (const FinishedFit& fit : fits)
     for (std::size_t i = 0; i < fit.trace.size(); ++i)
       table.rows.push_back({fit.target, fit.method, fit.seed, fmt::format("{}", fit.trace[i].evaluations),
                             fmt::format("{}", i), table_cell(fit.trace[i].batch_best),
-                            table_cell(fit.trace[i].best)});
+                            table_cell(fit.trace[i].best), fit.trace[i].stage});
   return table;
 }
 

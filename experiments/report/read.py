@@ -60,16 +60,19 @@ def read_rows(path):
     return rows
 
 
-def read_table(path, columns):
+def read_table(path, columns, younger=()):
     """The rows of a CSV file as dictionaries. columns: the function that reads each column (str or number);
-    further columns are left out. None where there is no such file."""
+    further columns are left out. younger: those that tables of earlier versions lack, whose cells are then None.
+    None where there is no such file."""
     if not path.exists():
         return None
     header, *rows = read_rows(path)
-    missing = [name for name in columns if name not in header]
+    missing = [name for name in columns if name not in header and name not in younger]
     if missing:
         raise ReportError(f"{path}:1: got no column {missing[0]}, expected {','.join(columns)}")
-    return [read_row(path, line, dict(zip(header, row)), columns) for line, row in enumerate(rows, 2)]
+    there = {name: convert for name, convert in columns.items() if name in header}
+    lacking = dict.fromkeys(name for name in columns if name not in header)
+    return [{**read_row(path, line, dict(zip(header, row)), there), **lacking} for line, row in enumerate(rows, 2)]
 
 
 def read_row(path, line, row, columns):

@@ -3,6 +3,8 @@
 Colours: Okabe, Ito, "Color Universal Design" (2008), told apart by colour-blind readers. Lines also differ in
 their dashes, so that a print in grey can be read."""
 
+import textwrap
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -56,6 +58,21 @@ def line_styles(names):
         else:
             styles[name] = {"color": GREY, "linewidth": 0.7, "zorder": 2}
     return styles
+
+
+def fitness_label(meta):
+    """What fitness is, by the measures of the objective; in lines, for an axis."""
+    objective = meta.get("objective")
+    if not objective:
+        return "fitness (1 - dissimilarity)"
+    terms = [term.replace("*", "\N{NO-BREAK SPACE}") for term in objective.split("+")]
+    return "\n".join(textwrap.wrap("fitness by " + " +\N{NO-BREAK SPACE}".join(terms), 46, break_long_words=False))
+
+
+def mark_end(axes, x, y, style):
+    """A ring on a line: where the starts end, or a run."""
+    axes.plot([x], [y], marker="o", markersize=6, markerfacecolor="none", markeredgecolor=style["color"],
+              linestyle="none", zorder=style.get("zorder", 3))
 
 
 def stands_out(style):

@@ -72,6 +72,7 @@ Measured measure(const FitResult& result, const FitCell& cell) {
     measured.results.emplace_back(kMetrics[row].name, table_cell(result.metrics.values[row]));
   }
   measured.results.emplace_back("evaluations", fmt::format("{}", result.evaluations));
+  measured.results.emplace_back("branch_steps", fmt::format("{}", result.branch_steps));
   measured.results.emplace_back("stopped_by", name_of(result.stopped_by));
   for (const PlantMeasure& measure : kPlantMeasures)
     measured.results.emplace_back(measure.name,
@@ -85,7 +86,8 @@ Measured measure(const FitResult& result, const FitCell& cell) {
   if (cell.siblings > 0 && !cell.tree.species.empty())
     append(measured.results, score_sides(cell.record, result, cell.tree, cell.siblings));
   measured.times = {{"seconds", table_number(result.seconds)},
-                    {"evaluations", fmt::format("{}", result.evaluations)}};
+                    {"evaluations", fmt::format("{}", result.evaluations)},
+                    {"branch_steps", fmt::format("{}", result.branch_steps)}};
   return measured;
 }
 
@@ -209,12 +211,13 @@ Plan plan_fits(const FitsDeclaration& fits, const fs::path& directory) {
   plan.threads_per_run = fits.threads;
   plan.result_columns = {"fitness"};
   for (const Metric& metric : kMetrics) plan.result_columns.emplace_back(metric.name);
-  for (const char* column : {"evaluations", "stopped_by"}) plan.result_columns.emplace_back(column);
+  for (const char* column : {"evaluations", "branch_steps", "stopped_by"})
+    plan.result_columns.emplace_back(column);
   for (const PlantMeasure& measure : kPlantMeasures) plan.result_columns.emplace_back(measure.name);
   for (const char* column : {"unseen_fitness", "unseen_iou", "truth_fitness", "truth_iou"})
     plan.result_columns.emplace_back(column);
   for (const SideColumn& column : kSideColumns) plan.result_columns.emplace_back(column.name);
-  plan.time_columns = {"seconds", "evaluations"};
+  plan.time_columns = {"seconds", "evaluations", "branch_steps"};
   add_runs(all_cells(fits, draw_targets(fits, directory)), plan);
   return plan;
 }

@@ -40,11 +40,17 @@ std::string aligned(const Lines& lines) {
 std::vector<std::string> shown_columns(const Plan& plan) {
   std::vector<std::string> shown;
   for (const char* column : {"fitness", "iou", "tolerant_iou", "outline_iou", "pixel_accuracy",
-                             "unseen_fitness", "stems", "knots", "leaves", "evaluations"})
+                             "unseen_fitness", "stems", "knots", "leaves", "evaluations", "branch_steps"})
     if (std::find(plan.result_columns.begin(), plan.result_columns.end(), column) !=
         plan.result_columns.end())
       shown.push_back(column);
   return shown;
+}
+
+/// Counts stand in the table of times too.
+bool is_result(const Plan& plan, const std::string& column) {
+  return std::find(plan.result_columns.begin(), plan.result_columns.end(), column) !=
+         plan.result_columns.end();
 }
 
 std::vector<std::string> cells_of(const RunRow& row, const Plan& plan) {
@@ -55,7 +61,7 @@ std::vector<std::string> cells_of(const RunRow& row, const Plan& plan) {
   }
   for (const std::string& column : shown_columns(plan)) cells.push_back(find(row.measured.results, column));
   for (const std::string& column : plan.time_columns)
-    if (column != "evaluations") cells.push_back(find(row.measured.times, column));
+    if (!is_result(plan, column)) cells.push_back(find(row.measured.times, column));
   return cells;
 }
 
@@ -63,7 +69,7 @@ Lines lines_of_runs(const ExperimentOutcome& outcome) {
   Lines lines{{"run", "status"}};
   for (const std::string& column : shown_columns(outcome.plan)) lines[0].push_back(column);
   for (const std::string& column : outcome.plan.time_columns)
-    if (column != "evaluations") lines[0].push_back(column);
+    if (!is_result(outcome.plan, column)) lines[0].push_back(column);
   for (const RunRow& row : outcome.rows) lines.push_back(cells_of(row, outcome.plan));
   return lines;
 }

@@ -1,6 +1,6 @@
 """The progress of fits to goals, as the dissertation's Fig. 4.9: fitness by evaluations, a panel a target.
 
-Thick: the best so far; thin: the best of each generation, which may fall where nothing is kept of the last one."""
+Rings: where starts and search end. Thick: the best so far; thin: the best of each generation, which may fall where nothing is kept of the last one."""
 
 from matplotlib.lines import Line2D
 
@@ -8,12 +8,13 @@ import style
 from read import column, grouped, number, read_table
 
 COLUMNS = {"target": str, "optimizer": str, "seed": str, "evaluations": number, "generation": number,
-           "batch_best": number, "best": number}
+           "batch_best": number, "best": number, "stage": str}
+YOUNGER = ["stage"]
 BELOW_BEST = 0.4  # of the range of the best so far: how far below it generations are shown
 
 
 def draw(directory, meta):
-    rows = read_table(directory / "generations.csv", COLUMNS)
+    rows = read_table(directory / "generations.csv", COLUMNS, YOUNGER)
     if not rows:
         return {}
     names = list(dict.fromkeys(row["optimizer"] for row in rows))
@@ -24,7 +25,8 @@ def draw(directory, meta):
         draw_target(panel, of_target, styles)
         panel.set_title(target, loc="left")
     for panel in axes[::2]:
-        panel.set_ylabel("pixel accuracy (%)" if meta.get("objective") == "pixel_accuracy" else "fitness (%)")
+        panel.set_ylabel("pixel accuracy (%)" if meta.get("objective") == "pixel_accuracy"
+                         else style.fitness_label(meta) + " (%)")
     axes[0].set_ylim(*limits(rows))
     add_legend(figure, draw_published(axes, meta), names, styles)
     return {"generations": figure}
@@ -53,8 +55,16 @@ def draw_target(axes, rows, styles):
         axes.plot(evaluations, percent(run, "batch_best"), **{**styles[name], "linewidth": 0.6, "linestyle": "-"},
                   alpha=0.6)
         axes.plot(evaluations, percent(run, "best"), drawstyle="steps-post", **styles[name])
+        for row in ends_of_stages(run):
+            style.mark_end(axes, row["evaluations"], 100 * row["best"], styles[name])
     axes.set_xlabel("evaluations")
     add_generations(axes, rows)
+
+
+def ends_of_stages(run):
+    """The last row of the starts, and of all: where starts and search end."""
+    starts = [row for row in run if row["stage"] == "starts" and row["best"] is not None]
+    return starts[-1:] + [row for row in run[-1:] if starts and row["best"] is not None]
 
 
 def percent(rows, name):

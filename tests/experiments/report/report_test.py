@@ -5,8 +5,10 @@
 
 Tests that draw are skipped, and say so, where Matplotlib is missing."""
 
+import csv
 import html.parser
 import importlib.util
+import json
 import os
 import pathlib
 import re
@@ -125,6 +127,28 @@ class Plots(ReportTest):
     def test_every_table_of_fits_is_drawn_in_three_formats(self):
         self.expect_plots(self.once_drawn("fits"), {"convergence", "convergence_targets", "data_profile",
                                                      "ranks_fitness", "generations"})
+
+    def test_tables_of_earlier_versions_are_drawn_too(self):
+        directory = self.fits()
+        for name, younger in [("convergence.csv", "starts"), ("generations.csv", "stage")]:
+            with (directory / name).open(newline="") as file:
+                rows = list(csv.DictReader(file))
+            with (directory / name).open("w", newline="") as file:
+                writer = csv.DictWriter(file, [key for key in rows[0] if key != younger], extrasaction="ignore")
+                writer.writeheader()
+                writer.writerows(rows)
+        self.drawn(directory)
+        self.assertTrue((directory / "convergence.svg").exists())
+        self.assertTrue((directory / "generations.svg").exists())
+
+    def test_axes_name_the_measures_of_the_objective(self):
+        directory = self.fits()
+        meta = json.loads((directory / "meta.json").read_text())
+        meta["objective"] = "0.5*truncated_distance+0.5*iou"
+        (directory / "meta.json").write_text(json.dumps(meta))
+        self.drawn(directory)
+        for stem in ["convergence", "generations"]:
+            self.assertIn("truncated_distance", (directory / f"{stem}.svg").read_text(), stem)
 
     def test_every_table_of_growth_is_drawn_in_three_formats(self):
         self.expect_plots(self.once_drawn("growth"), {"growth_times", "growth_size", "growth_complexity"})

@@ -113,9 +113,9 @@ def write_convergence(report, curves, methods, targets):
     for target in targets + ["all"]:
         for method in methods:
             runs = [run for t in (targets if target == "all" else [target]) for run in curves[t, method]]
-            rows += [[target, method, evaluations, *quartiles([run[i] for run in runs]), len(runs)]
+            rows += [[target, method, evaluations, *quartiles([run[i] for run in runs]), len(runs), 20]
                      for i, evaluations in enumerate(GRID)]
-    write_csv(report / "convergence.csv", "target,optimizer,evaluations,q25,median,q75,runs", rows)
+    write_csv(report / "convergence.csv", "target,optimizer,evaluations,q25,median,q75,runs,starts", rows)
 
 
 def write_profile(report, strength):
@@ -160,8 +160,9 @@ def write_generations(report, targets, rng):
                 for generation in range(1, 101):
                     batch = gain * (0.8 + 0.185 * (1 - math.exp(-generation / 25))) + rng.gauss(0, 0.006)
                     best = max(best, min(batch, 0.99))
-                    rows.append([target, method, seed, generation * 30, generation, batch, best])
-    write_csv(report / "generations.csv", "target,optimizer,seed,evaluations,generation,batch_best,best", rows)
+                    stage = "starts" if generation <= 2 else "search"
+                    rows.append([target, method, seed, generation * 30, generation, batch, best, stage])
+    write_csv(report / "generations.csv", "target,optimizer,seed,evaluations,generation,batch_best,best,stage", rows)
 
 
 def write_growth(report, species, seeds):
