@@ -57,14 +57,13 @@ void check_searches(const FitRecord& record, const Optimizer& optimizer, const S
   if (species) check_optimizer(record, optimizer, SpaceObjective(*species, {}, {}, no_scorer));
 }
 
-/// The species space the run searches first, if it does.
+}  // namespace
+
 std::optional<SpeciesSpace> space_of(const FitRecord& record, const Model& model) {
   const int components = parse_search_space(record.space);
   if (components == 0) return std::nullopt;
   return bundled_species_space(model, components);
 }
-
-}  // namespace
 
 const Optimizer& optimizer_of(const FitRecord& record, const FitExecution& options) {
   return options.optimizer ? *options.optimizer : optimizer_by_name(record.optimizer);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <espalier/core/error.h>
 #include <espalier/fitting/run/fit_run.h>
 
 namespace espalier {
@@ -19,6 +20,11 @@ long evaluation_limit(const FitRecord& record, const fs::path& directory, const 
   return reached ? reached->search_evaluations : record.budget.evaluations;
 }
 
+EvaluationLog open_log(const fs::path& directory, const Replay& replay) {
+  if (replay.on_batch) return EvaluationLog(replay.logged);
+  return EvaluationLog(directory / "evaluations.bin");
+}
+
 }  // namespace
 
 std::optional<BranchRounds> reached_rounds(const FitRecord& record, const fs::path& directory,
@@ -33,7 +39,7 @@ int threads_of(const FitExecution& options) {
 }
 
 FitRun::FitRun(const FitRecord& record, const FitTask& task, const FitPlan& plan, const fs::path& directory,
-               const FitExecution& options)
+               const FitExecution& options, Replay replay)
     : record_(record),
       threads_(threads_of(options)),
       task_(task),
@@ -42,11 +48,14 @@ FitRun::FitRun(const FitRecord& record, const FitTask& task, const FitPlan& plan
       directory_(directory),
       options_(options),
       state_{.record = record, .task = task, .kind = plan.kind},
-      log_(directory / "evaluations.bin"),
+      replay_(std::move(replay)),
+      log_(open_log(directory, replay_)),
       plant_scorer_(task, threads_),
       scorer_(
-          plant_scorer_, log_, evaluation_limit(record, directory, options), [this] { return seconds(); },
-          [this](const ScoredBatch& batch) { on_scored(batch); }),
+          plant_scorer_, log_,
+          replay_.on_batch ? static_cast<long>(log_.logged().size())
+                           : evaluation_limit(record, directory, options),
+          [this] { return seconds(); }, [this](const ScoredBatch& batch) { on_scored(batch); }),
       renderer_(task.make_renderer()),
       given_overrides_(task.overrides) {}
 
@@ -151,16 +160,19 @@ FitResult FitRun::finish() {
 }
 
 FitResult FitRun::run(const std::optional<SpeciesSpace>& species) {
-  std::vector<StartPoint> starts = plan_.starts;
-  std::vector<double> scores = score_starts(starts);
-  plant_scorer_.score_failures_as_worst();
-  if (species) search_species(*species, starts, scores);
-  if (record_.stages.search)
-    search(starts, scores);
-  else
-    begin_from_best(starts, scores);
+  search_from_starts(species);
   if (will_refine()) refine();
   return finish();
+}
+
+void FitRun::replay(const std::optional<SpeciesSpace>& species) {
+  search_from_starts(species);
+  const std::size_t replayed = static_cast<std::size_t>(scorer_.evaluations());
+  if (replayed < log_.logged().size())
+    throw_input_error(
+        "evaluations.bin: got {} evaluations, of which the search makes {}, expected the same program, "
+        "libraries and presets as in the run that began",
+        log_.logged().size(), replayed);
 }
 
 }  // namespace espalier

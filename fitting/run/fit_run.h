@@ -3,6 +3,7 @@
 #pragma once
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,13 +33,24 @@ const Optimizer& optimizer_of(const FitRecord& record, const FitExecution& optio
 /// At least 1: as many as asked for, or one for each processor.
 int threads_of(const FitExecution& options);
 
+/// The species space that the run searches first, if it does.
+std::optional<SpeciesSpace> space_of(const FitRecord& record, const Model& model);
+
+/// A log to be gone through again: nothing is evaluated or written.
+struct Replay {
+  std::vector<LoggedEvaluation> logged;
+  std::function<void(FitStage, const ScoredBatch&)> on_batch = {};  ///< none: it is no replay, but a run
+};
+
 /// One run: its state, its clock, and when it stops.
 class FitRun : public Observer {
  public:
   FitRun(const FitRecord& record, const FitTask& task, const FitPlan& plan,
-         const std::filesystem::path& directory, const FitExecution& options);
+         const std::filesystem::path& directory, const FitExecution& options, Replay replay = {});
 
   FitResult run(const std::optional<SpeciesSpace>& species);
+  /// Starts and searches as they were logged. Throws InputError where they are not those of the log.
+  void replay(const std::optional<SpeciesSpace>& species);
   bool stop_requested() override;
 
  private:
@@ -53,6 +65,7 @@ class FitRun : public Observer {
 
   // fit_run_search.cpp
   void on_scored(const ScoredBatch& batch);
+  void search_from_starts(const std::optional<SpeciesSpace>& species);
   std::vector<double> score_starts(const std::vector<StartPoint>& starts);
   void search_species(const SpeciesSpace& species, std::vector<StartPoint>& starts,
                       std::vector<double>& scores);
@@ -82,6 +95,7 @@ class FitRun : public Observer {
   std::filesystem::path directory_;
   const FitExecution& options_;
   RunState state_;
+  Replay replay_;
   EvaluationLog log_;
   PlantScorer plant_scorer_;
   LoggedScorer scorer_;

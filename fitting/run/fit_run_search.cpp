@@ -22,6 +22,7 @@ bool FitRun::search_time_is_over() const {
 }
 
 void FitRun::on_scored(const ScoredBatch& batch) {
+  if (replay_.on_batch) return replay_.on_batch(stage_, batch);
   if (batch.replayed) {
     seconds_before_ = batch.seconds;
     live_since_ = Clock::now();
@@ -41,6 +42,17 @@ void FitRun::warn_over_budget(const std::string& start, double factor) const {
       "start '{}': got {:.3g} times as many stems or leaves as a candidate may have, expected at most "
       "{:g} and {:g}: it was not grown",
       start, factor, record_.growth.max_stems, record_.growth.max_leaves));
+}
+
+void FitRun::search_from_starts(const std::optional<SpeciesSpace>& species) {
+  std::vector<StartPoint> starts = plan_.starts;
+  std::vector<double> scores = score_starts(starts);
+  plant_scorer_.score_failures_as_worst();
+  if (species) search_species(*species, starts, scores);
+  if (record_.stages.search)
+    search(starts, scores);
+  else
+    begin_from_best(starts, scores);
 }
 
 std::vector<double> FitRun::score_starts(const std::vector<StartPoint>& starts) {

@@ -30,7 +30,27 @@ std::string read_all(int file) {
   return bytes;
 }
 
+/// The whole records of a log.
+std::vector<LoggedEvaluation> records_of(const std::string& bytes, const std::filesystem::path& path) {
+  if (std::memcmp(bytes.data(), kMark, std::min(bytes.size(), kMarkBytes)) != 0)
+    throw_input_error("{}: got another kind of file, expected a log of evaluations", path.string());
+  const std::size_t count =
+      bytes.size() < kMarkBytes ? 0 : (bytes.size() - kMarkBytes) / sizeof(LoggedEvaluation);
+  std::vector<LoggedEvaluation> records(count);
+  if (count > 0) std::memcpy(records.data(), bytes.data() + kMarkBytes, count * sizeof(LoggedEvaluation));
+  return records;
+}
+
 }  // namespace
+
+std::vector<LoggedEvaluation> read_evaluation_log(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0)
+    throw_input_error("{}: got '{}', expected a log of evaluations", path.string(), std::strerror(errno));
+  const std::string bytes = read_all(file);
+  ::close(file);
+  return records_of(bytes, path);
+}
 
 std::uint32_t hash_values(const ParameterValues& values) {
   std::uint64_t hash = 0xcbf29ce484222325ull;
@@ -53,22 +73,18 @@ EvaluationLog::EvaluationLog(const std::filesystem::path& path) : path_(path) {
   }
 }
 
-EvaluationLog::~EvaluationLog() { ::close(file_); }
+EvaluationLog::~EvaluationLog() {
+  if (file_ >= 0) ::close(file_);
+}
 
 void EvaluationLog::read_logged() {
   const std::string bytes = read_all(file_);
-  const std::size_t mark_read = std::min(bytes.size(), kMarkBytes);
-  if (std::memcmp(bytes.data(), kMark, mark_read) != 0)
-    throw_input_error("{}: got another kind of file, expected a log of evaluations", path_.string());
-  const std::size_t count =
-      bytes.size() < kMarkBytes ? 0 : (bytes.size() - kMarkBytes) / sizeof(LoggedEvaluation);
-  logged_.resize(count);
-  if (count > 0) std::memcpy(logged_.data(), bytes.data() + kMarkBytes, count * sizeof(LoggedEvaluation));
+  logged_ = records_of(bytes, path_);
   if (bytes.size() < kMarkBytes) {  // new, or torn inside the mark
     ::lseek(file_, 0, SEEK_SET);
     write_all(kMark, kMarkBytes);
   }
-  const auto end = static_cast<off_t>(kMarkBytes + count * sizeof(LoggedEvaluation));
+  const auto end = static_cast<off_t>(kMarkBytes + logged_.size() * sizeof(LoggedEvaluation));
   if (bytes.size() > static_cast<std::size_t>(end) && ::ftruncate(file_, end) != 0)
     throw_input_error("{}: got '{}', expected a log that can be written", path_.string(),
                       std::strerror(errno));
@@ -76,6 +92,7 @@ void EvaluationLog::read_logged() {
 }
 
 void EvaluationLog::append(std::span<const LoggedEvaluation> evaluations) {
+  ESPALIER_CHECK_EQ(file_ >= 0, true);
   write_all(evaluations.data(), evaluations.size_bytes());
 }
 

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <espalier/core/parameter_table.h>
@@ -22,11 +24,17 @@ struct LoggedEvaluation {
 /// FNV-1a over the bits of the values.
 std::uint32_t hash_values(const ParameterValues& values);
 
+/// What a log holds, without its torn tail. The file is only read, also while a run writes it. Throws
+/// InputError where there is none, or it is no log.
+std::vector<LoggedEvaluation> read_evaluation_log(const std::filesystem::path& path);
+
 class EvaluationLog {
  public:
   /// Starts an empty log, or reads the one there is, without its torn tail. Throws InputError where
   /// the file cannot be opened, read or written, or is no log.
   explicit EvaluationLog(const std::filesystem::path& path);
+  /// Of evaluations to replay alone: it has no file, and none may be appended.
+  explicit EvaluationLog(std::vector<LoggedEvaluation> logged) : logged_(std::move(logged)) {}
   ~EvaluationLog();
   EvaluationLog(const EvaluationLog&) = delete;
   EvaluationLog& operator=(const EvaluationLog&) = delete;

@@ -33,7 +33,7 @@ std::size_t LoggedScorer::replay(std::span<const ParameterValues> candidates, st
     const LoggedEvaluation& entry = logged[first + i];
     if (entry.candidate_hash != hash_values(candidates[i]))
       throw_input_error(
-          "resume: evaluation {} differs from the one in the log, expected the same program, "
+          "evaluations.bin: evaluation {} differs from the one in the log, expected the same program, "
           "libraries and presets as in the run that began",
           first + i + 1);
     scores[i] = entry.value;

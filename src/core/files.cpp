@@ -62,13 +62,26 @@ int write_all(int descriptor, std::string_view bytes) {
   return 0;
 }
 
+using WriteBytes = std::function<void(const TakeBytes& take)>;
+
+/// Throws where a piece is not taken whole.
+TakeBytes into(int descriptor, const fs::path& path) {
+  return [descriptor, &path](std::string_view bytes) {
+    if (const int failed = write_all(descriptor, bytes)) throw_cannot_write(path, failed);
+  };
+}
+
 /// A device or a pipe cannot be replaced by a rename.
-void write_in_place(const fs::path& path, std::string_view bytes) {
+void write_in_place(const fs::path& path, const WriteBytes& write) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor < 0) throw_cannot_write(path, errno);
-  const int failed = write_all(descriptor, bytes);
+  try {
+    write(into(descriptor, path));
+  } catch (...) {
+    ::close(descriptor);
+    throw;
+  }
   ::close(descriptor);
-  if (failed != 0) throw_cannot_write(path, failed);
 }
 
 /// Beside `path`, so that the rename stays on one file system; unlike any other thread's or process's.
@@ -80,15 +93,18 @@ fs::path temporary_path(const fs::path& path) {
 }  // namespace
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
+  write_file_atomically(path, [bytes](const TakeBytes& take) { take(bytes); });
+}
+
+void write_file_atomically(const fs::path& path, const WriteBytes& write) {
   std::error_code none;
   const fs::file_status status = fs::status(path, none);
   if (fs::is_directory(status)) throw_cannot_write(path, EISDIR);
-  if (fs::exists(status) && !fs::is_regular_file(status)) return write_in_place(path, bytes);
+  if (fs::exists(status) && !fs::is_regular_file(status)) return write_in_place(path, write);
   const fs::path target = fs::is_symlink(fs::symlink_status(path, none)) ? fs::weakly_canonical(path) : path;
   TemporaryFile file(temporary_path(target), path);
-  int failed = write_all(file.descriptor(), bytes);
-  if (failed == 0) failed = file.keep_as(target);
-  if (failed != 0) throw_cannot_write(path, failed);
+  write(into(file.descriptor(), path));
+  if (const int failed = file.keep_as(target)) throw_cannot_write(path, failed);
 }
 
 std::string read_file(const fs::path& path) {

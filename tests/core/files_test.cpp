@@ -46,6 +46,19 @@ TEST_F(Files, BytesReadBackAsTheyWere) {
   EXPECT_EQ(entries(), 1);
 }
 
+TEST_F(Files, PiecesAreOneFileAndWhereTheyBreakOffTheOldOneStays) {
+  write_file_atomically(folder_ / "a", [](const TakeBytes& take) { take("one "), take(""), take("file"); });
+  EXPECT_EQ(read_file(folder_ / "a"), "one file");
+  EXPECT_THROW(write_file_atomically(folder_ / "a",
+                                     [](const TakeBytes& take) {
+                                       take("half a");
+                                       throw_input_error("no more");
+                                     }),
+               InputError);
+  EXPECT_EQ(read_file(folder_ / "a"), "one file");
+  EXPECT_EQ(entries(), 1);
+}
+
 TEST_F(Files, UnwritablePathsAreRefusedAndLeaveNothing) {
   write_file_atomically(folder_ / "file", "old");
   fs::create_directory(folder_ / "folder");

@@ -9,6 +9,7 @@ class App;
 namespace espalier {
 
 void add_fit_command(CLI::App& app);
+void add_trials_command(CLI::App& app);
 void add_target_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_mask_command(CLI::App& app);

@@ -31,6 +31,7 @@ int run_program(int argc, const char* const* argv) {
   app.set_version_flag("--version", version_text, "Print the version, the commit and the libraries");
   // Commands, in the order of the help.
   add_fit_command(app);
+  add_trials_command(app);
   add_target_command(app);
   add_compare_command(app);
   add_mask_command(app);
