@@ -153,7 +153,7 @@ struct CompareArguments {
   std::string first, second, out;
 };
 
-void compare(const CompareArguments& arguments) {
+void compare_two(const CompareArguments& arguments) {
   const StudyComparison comparison = compare_studies(arguments.first, arguments.second);
   const std::string page = comparison_as_markdown(comparison);
   if (arguments.out.empty()) {
@@ -166,7 +166,7 @@ void compare(const CompareArguments& arguments) {
   fmt::print("{}\n", (out / "compare.md").string());
 }
 
-void add_compare_command(CLI::App& experiment) {
+void add_study_comparison(CLI::App& experiment) {
   CLI::App* command = experiment.add_subcommand(
       "compare", "Say whether one of two finished experiments is better on the targets that both have");
   const auto arguments = std::make_shared<CompareArguments>();
@@ -174,14 +174,14 @@ void add_compare_command(CLI::App& experiment) {
   command->add_option("second", arguments->second, "that of another one")->required();
   command->add_option("--out", arguments->out,
                       "directory for compare.md and compare.csv (default: the table is printed)");
-  command->callback([arguments] { compare(*arguments); });
+  command->callback([arguments] { compare_two(*arguments); });
 }
 
 struct ExportArguments {
   std::string directory, format, out;
 };
 
-void add_export_command(CLI::App& experiment) {
+void add_study_export(CLI::App& experiment) {
   CLI::App* command = experiment.add_subcommand(
       "export", "Write the runs of fits for tools that compare optimisers: IOHanalyzer, COCO's cocopp");
   const auto arguments = std::make_shared<ExportArguments>();
@@ -222,8 +222,8 @@ void add_experiment_command(CLI::App& app) {
   add_run_command(*command);
   add_report_command(*command);
   add_check_command(*command);
-  add_compare_command(*command);
-  add_export_command(*command);
+  add_study_comparison(*command);
+  add_study_export(*command);
 }
 
 }  // namespace espalier
