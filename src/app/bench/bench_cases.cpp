@@ -27,11 +27,12 @@ double seconds_between(Clock::time_point a, Clock::time_point b) {
 struct Setting {
   Preset preset;
   const Model& model;
+  bool has_leaves;
   Camera camera;
   Mask target;
 
   explicit Setting(const BenchCase& of)
-      : preset(load_preset(of.species)), model(model_by_name(preset.model)) {
+      : preset(load_preset(of.species)), model(model_by_name(preset.model)), has_leaves(of.leaves) {
     for (const auto& [role, value] : of.changes) set_role(model.table(), role, value, preset.values);
     if (!of.leaves) set_role(model.table(), {Role::leaf_count}, 0, preset.values);
     Plant plant;
@@ -100,7 +101,9 @@ class Evaluator {
     return static_cast<double>(count) / seconds_between(began, Clock::now());
   }
 
-  std::size_t bytes() const { return memory_bytes(plant_) + mask_.words().size_bytes(); }
+  std::size_t bytes() const {
+    return memory_bytes(plant_) + mask_.words().size_bytes() + foliage_.words().size_bytes();
+  }
 
   double grow_s = 0, draw_s = 0, compare_s = 0, stems = 0, leaves = 0;
   long count = 0;
@@ -110,7 +113,9 @@ class Evaluator {
   TimedRenderer renderer_;
   Plant plant_;
   Mask mask_;
-  std::array<SilhouetteView, 1> views_{{{&setting_.camera, &mask_}}};
+  Mask foliage_;  ///< of trees with leaves: fits of these ask for it
+  std::array<SilhouetteView, 1> views_{
+      {{&setting_.camera, &mask_, setting_.has_leaves ? &foliage_ : nullptr}}};
   double fitness_ = 0;  ///< keeps the comparison from being left out
 };
 
