@@ -164,7 +164,7 @@ std::string groups_csv(const std::vector<Calibration>& calibrations) {
 std::string ranks_csv(const std::vector<Unknown>& unknowns,
                       const std::vector<std::vector<Verdict>>& verdicts) {
   std::string csv = "tree";
-  for (const Unknown& unknown : unknowns) csv += "," + unknown.name;
+  for (const Unknown& unknown : unknowns) csv.append(",").append(unknown.name);
   csv += '\n';
   for (std::size_t tree = 0; tree < verdicts.size(); ++tree) {
     csv += fmt::format("{}", tree + 1);

@@ -206,9 +206,13 @@ Names targets_of_one(const Study& first, const Study& second) {
 }
 
 /// "|" would end a cell.
-std::string markdown_cell(std::string text) {
-  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
-  return text;
+std::string markdown_cell(const std::string& text) {
+  std::string cell;
+  for (const char letter : text) {
+    if (letter == '|') cell += '\\';
+    cell += letter;
+  }
+  return cell;
 }
 
 std::string markdown_row(const Names& cells) {

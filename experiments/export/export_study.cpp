@@ -52,11 +52,12 @@ std::vector<ExportedRow> rows_of(const FinishedFit& fit) {
   return rows;
 }
 
-/// How many parameters were searched: those of which summary.json says what the picture tells.
+/// How many parameters were searched. Version 0.1 sorted them by how sure it was of each.
 std::size_t dimension_of(const fs::path& run) {
   const fs::path path = run / "summary.json";
   const auto summary = nlohmann::json::parse(read_file(path), nullptr, false);
   std::size_t dimension = 0;
+  if (summary.is_object() && summary.contains("searched")) dimension = summary["searched"].size();
   if (summary.is_object() && summary.contains("parameters") && summary["parameters"].is_object())
     for (const auto& names : summary["parameters"])
       if (names.is_array()) dimension += names.size();

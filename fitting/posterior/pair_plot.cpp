@@ -9,7 +9,7 @@ namespace espalier {
 
 namespace {
 
-constexpr float kCellPx = 96, kGapPx = 8, kLeftPx = 110, kTopPx = 34, kBottomPx = 70;
+constexpr float kCellPx = 96, kCellGapPx = 8, kNamesPx = 110, kGridTopPx = 34, kTicksPx = 70;
 constexpr Rgb kFrame{200, 200, 200}, kDot{0, 114, 178}, kBar{158, 202, 225};
 constexpr Eigen::Index kMostDots = 300;
 
@@ -20,8 +20,8 @@ struct Axis {
 
 /// Upper left corner of a cell.
 ChartPoint corner_of(std::size_t column, std::size_t row) {
-  return {kLeftPx + (kCellPx + kGapPx) * static_cast<float>(column),
-          kTopPx + (kCellPx + kGapPx) * static_cast<float>(row)};
+  return {kNamesPx + (kCellPx + kCellGapPx) * static_cast<float>(column),
+          kGridTopPx + (kCellPx + kCellGapPx) * static_cast<float>(row)};
 }
 
 void add_frame(ChartPoint at, ChartLayout& layout) {
@@ -68,9 +68,9 @@ std::vector<std::size_t> plotted_unknowns(const std::vector<UnknownSummary>& sum
 
 PosteriorChart draw_pairs(const Eigen::MatrixXd& samples, const std::vector<UnknownSummary>& summaries,
                           const std::vector<std::size_t>& unknowns) {
-  const auto side = static_cast<float>(unknowns.size()) * (kCellPx + kGapPx);
+  const auto side = static_cast<float>(unknowns.size()) * (kCellPx + kCellGapPx);
   PosteriorChart chart{
-      {}, static_cast<int>(kLeftPx + side + 20), static_cast<int>(kTopPx + side + kBottomPx)};
+      {}, static_cast<int>(kNamesPx + side + 20), static_cast<int>(kGridTopPx + side + kTicksPx)};
   chart.layout.labels.push_back({{20, 16}, "Draws of the posterior, pair by pair", TextAnchor::start});
   std::vector<Axis> axes;
   axes.reserve(unknowns.size());

@@ -41,6 +41,8 @@ class PosteriorEstimator {
   Eigen::MatrixXd unknown_scores_;
   SummaryRegression regression_;
   Eigen::MatrixXd predictions_;
+  Eigen::RowVectorXd lowest_,
+      highest_;  ///< of nearly all predictions: a picture beyond is taken to be at the end
 };
 
 /// The value below which `share` of the weight lies, linear between the middles of the draws' weights.

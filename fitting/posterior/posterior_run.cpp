@@ -34,7 +34,7 @@ Eigen::MatrixXd samples_of(const Posterior& posterior, const std::vector<std::si
 std::string samples_to_csv(const PlantPrior& prior, const ReferenceTable& table, const Posterior& posterior,
                            const std::vector<std::size_t>& rows, const Eigen::MatrixXd& samples) {
   std::string csv = "species";
-  for (const Unknown& unknown : unknowns_of(prior)) csv += "," + unknown.name;
+  for (const Unknown& unknown : unknowns_of(prior)) csv.append(",").append(unknown.name);
   csv += '\n';
   for (std::size_t i = 0; i < rows.size(); ++i) {
     csv += prior.species()[table.species[posterior.draws[rows[i]]]].name;

@@ -63,14 +63,14 @@ Eigen::MatrixXd replicated_summaries(const PlantPrior& prior, const ReferenceTab
 
 PredictiveCheck check_prediction(const Eigen::MatrixXd& replicates, const Eigen::MatrixXd& table_summaries,
                                  const std::vector<double>& observed) {
-  constexpr double kLeastShare = 0.05;
+  constexpr double kLeastShare = 0.05, kMostSquare = 16;
   ESPALIER_CHECK_EQ(replicates.cols(), static_cast<Eigen::Index>(observed.size()));
   if (replicates.rows() == 0) return {};
   const Eigen::RowVectorXd mean = replicates.colwise().mean();
   const Eigen::RowVectorXd unit =
       deviations(replicates).cwiseMax(kLeastShare * deviations(table_summaries)).cwiseMax(1e-12);
   const auto distance = [&](const Eigen::RowVectorXd& row) {
-    return (row - mean).cwiseQuotient(unit).squaredNorm();
+    return (row - mean).cwiseQuotient(unit).cwiseAbs2().cwiseMin(kMostSquare).sum();
   };
   Eigen::VectorXd distances(replicates.rows());
   for (Eigen::Index i = 0; i < replicates.rows(); ++i) distances[i] = distance(replicates.row(i));

@@ -28,7 +28,8 @@ Eigen::MatrixXd replicated_summaries(const PlantPrior& prior, const ReferenceTab
                                      const Posterior& posterior, int threads);
 
 /// Distances are sums of squares over the summaries, each from the replicates' mean, in their standard
-/// deviations and never in less than a twentieth of the table's: what hardly varies says little.
+/// deviations and never in less than a twentieth of the table's: what hardly varies says little. No square
+/// counts more than 16: one odd summary makes no odd picture.
 PredictiveCheck check_prediction(const Eigen::MatrixXd& replicates, const Eigen::MatrixXd& table_summaries,
                                  const std::vector<double>& observed);
 

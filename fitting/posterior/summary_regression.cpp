@@ -74,21 +74,45 @@ Eigen::MatrixXd SummaryFeatures::features(const Eigen::MatrixXd& scores) const {
   return (raw_features(scores).rowwise() - mean_).array().rowwise() / deviation_.array();
 }
 
+namespace {
+
+constexpr Eigen::Index kFolds = 5;
+
+Eigen::MatrixXd rows_of_fold(const Eigen::MatrixXd& matrix, Eigen::Index fold) {
+  return matrix(Eigen::seq(fold, Eigen::last, kFolds), Eigen::all);
+}
+
+/// Ridge regression by its normal equations, sums over `draws` rows.
+Eigen::MatrixXd solve_ridge(Eigen::MatrixXd products, const Eigen::MatrixXd& with_unknowns, double draws) {
+  products /= draws;
+  products.diagonal().array() += kRidge;
+  return products.ldlt().solve(with_unknowns / draws);
+}
+
+}  // namespace
+
 SummaryRegression::SummaryRegression(const Eigen::MatrixXd& summary_scores,
                                      const Eigen::MatrixXd& unknown_scores)
     : features_(summary_scores) {
-  const auto draws = static_cast<double>(summary_scores.rows());
-  const Eigen::MatrixXd features = features_.features(summary_scores);
-  Eigen::MatrixXd normal = features.transpose() * features / draws;
-  normal.diagonal().array() += kRidge;
-  const Eigen::MatrixXd coefficients =
-      normal.ldlt().solve(features.transpose() * centred(unknown_scores) / draws);
-  const Axes axes = principal_axes(centred(features * coefficients));
+  const Eigen::MatrixXd features = features_.features(summary_scores), unknowns = centred(unknown_scores);
+  const Eigen::MatrixXd products = features.transpose() * features,
+                        with_unknowns = features.transpose() * unknowns;
+  of_draws_.resize(unknowns.rows(), unknowns.cols());
+  for (Eigen::Index fold = 0; fold < kFolds; ++fold) {
+    const Eigen::MatrixXd left_out = rows_of_fold(features, fold);
+    const Eigen::MatrixXd coefficients =
+        solve_ridge(products - left_out.transpose() * left_out,
+                    with_unknowns - left_out.transpose() * rows_of_fold(unknowns, fold),
+                    static_cast<double>(features.rows() - left_out.rows()));
+    of_draws_(Eigen::seq(fold, Eigen::last, kFolds), Eigen::all) = left_out * coefficients;
+  }
+  const Axes axes = principal_axes(centred(of_draws_));
   Eigen::Index kept = 0;
   while (kept < axes.variances.size() && axes.variances[kept] > kLeastVariance) ++kept;
   const Eigen::MatrixXd whitening =
       axes.vectors.leftCols(kept) * axes.variances.head(kept).cwiseSqrt().cwiseInverse().asDiagonal();
-  coefficients_ = coefficients * whitening;
+  of_draws_ = of_draws_ * whitening;
+  coefficients_ = solve_ridge(products, with_unknowns, static_cast<double>(features.rows())) * whitening;
 }
 
 Eigen::MatrixXd SummaryRegression::predict(const Eigen::MatrixXd& summary_scores) const {

@@ -42,12 +42,16 @@ class SummaryRegression {
   /// Scores of summaries and of unknowns, a row a draw.
   SummaryRegression(const Eigen::MatrixXd& summary_scores, const Eigen::MatrixXd& unknown_scores);
   /// Predicted scores of the unknowns, turned to their principal components and scaled to unit variance over
-  /// the draws: at most `unknowns` columns, those that differ. A row a row.
+  /// the draws: at most as many columns as unknowns, those that differ. A row a row.
   Eigen::MatrixXd predict(const Eigen::MatrixXd& summary_scores) const;
+  /// The same of the draws themselves, each by a regression without it and a fifth of the others: as far from
+  /// the truth as that of a picture which the regression has not seen.
+  const Eigen::MatrixXd& predictions_of_draws() const { return of_draws_; }
 
  private:
   SummaryFeatures features_;
-  Eigen::MatrixXd coefficients_;  ///< features → whitened predictions
+  Eigen::MatrixXd coefficients_;  ///< features → predictions
+  Eigen::MatrixXd of_draws_;
 };
 
 }  // namespace espalier

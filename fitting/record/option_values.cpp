@@ -245,6 +245,8 @@ OptionValue value_of_node(const FitOption& option, const toml::node& node, const
   if (type == ValueType::whole && option.word && node.is_string())
     return whole_of_word(option, *node.value_exact<std::string>());
   if (type == ValueType::number && node.is_number()) return *node.value<double>();
+  if (type == ValueType::number && option.word && node.is_string())
+    return number_of_word(option, *node.value_exact<std::string>());
   if (type == ValueType::text && node.is_string()) return *node.value_exact<std::string>();
   if (type == ValueType::texts && node.is_array()) return texts_of_array(option, *node.as_array());
   if (type == ValueType::assignments && node.is_table())

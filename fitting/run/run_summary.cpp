@@ -84,7 +84,11 @@ std::string run_summary(const RunState& state) {
   if (state.record.height_m) summary["height_m"] = *state.record.height_m;
   for (const ViewRecord& view : state.record.views) summary["pictures"].push_back(view.picture.string());
   if (!state.task.warnings.empty()) summary["warnings"] = state.task.warnings;
-  if (state.archive) summary["archive"] = archive_to_json(*state.archive);
+  if (state.archive) {
+    for (const FreeParameter& parameter : state.archive->space().free)
+      summary["searched"].push_back(parameter.name);
+    summary["archive"] = archive_to_json(*state.archive);
+  }
   for (const ScoredStart& start : state.starts)
     summary["starts"].push_back({{"name", start.name}, {"fitness", start.fitness}});
   return summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

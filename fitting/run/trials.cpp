@@ -26,8 +26,8 @@ std::vector<LoggedEvaluation> logged_in(const fs::path& run) {
 
 std::string head_of(const ParameterTable& table) {
   std::string line = "evaluation,stage,value,seconds";
-  for (const ParameterInfo& row : table.rows) line += "," + row.full_name();
-  return line + "\n";
+  for (const ParameterInfo& row : table.rows) line.append(",").append(row.full_name());
+  return line.append("\n");
 }
 
 std::string line_of(const Trial& trial) {

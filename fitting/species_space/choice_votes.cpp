@@ -47,7 +47,7 @@ std::vector<double> vote_weights(const SpeciesSpace& space, const Eigen::VectorX
   std::vector<double> distances;
   distances.reserve(space.species.size());
   for (const SpeciesPoint& species : space.species)
-    distances.push_back((species.coordinates - coordinates).norm());
+    distances.push_back((species.coordinates - coordinates).stableNorm());
   double nearest = INFINITY;
   for (std::size_t i = 0; i < distances.size(); ++i)
     if (votes[i]) nearest = std::min(nearest, distances[i]);

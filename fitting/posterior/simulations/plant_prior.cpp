@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -56,17 +55,14 @@ PlantPrior::PlantPrior(const Model& model) : model_(&model) {
       rows_.push_back(row);
 }
 
-/// A flag's sign is kept, and so is a zero that turns an effect off.
+/// A flag's sign is kept; a zero counts as positive.
 double PlantPrior::moved(std::size_t row, const ParameterValues& species, double steps) const {
   const ParameterInfo& info = model_->table().rows[row];
   const double value = species[row];
   double lower = std::min(std::max(info.search_lower, info.lower), value);
   double upper = std::max(std::min(info.search_upper, info.upper), value);
   if (info.unit == "m") lower = info.lower, upper = info.upper;
-  if (info.sign == SignMeaning::flag) {
-    if (value == 0) return value;
-    (value > 0 ? lower : upper) = 0;
-  }
+  if (info.sign == SignMeaning::flag) (value >= 0 ? lower : upper) = 0;
   const double reach = reach_of_species(model_->table(), row, species, spread_);
   const double result = reflected(value + steps * reach, lower, upper);
   const bool is_whole = info.scale == Scale::integer && !info.relaxable;
@@ -81,15 +77,6 @@ PlantDraw PlantPrior::draw(RandomKey key) const {
   plant.values = values;
   for (const std::size_t row : rows_) plant.values[row] = moved(row, values, normal_draw(key, row));
   return plant;
-}
-
-std::uint64_t PlantPrior::fingerprint() const {
-  std::uint64_t hash = species_.size();
-  const auto add = [&](double number) { hash = mix_bits(hash ^ std::bit_cast<std::uint64_t>(number)); };
-  for (const Preset& preset : species_)
-    for (const double value : preset.values) add(value);
-  for (const std::size_t row : rows_) add(static_cast<double>(row));
-  return hash;
 }
 
 }  // namespace espalier

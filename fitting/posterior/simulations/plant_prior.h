@@ -3,7 +3,6 @@
 // are normal and end at the searched ranges, where they are reflected. The tree's size is left out: a picture
 // has no metres.
 #pragma once
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -30,8 +29,6 @@ class PlantPrior {
   const std::vector<std::size_t>& rows() const { return rows_; }
   /// The same key draws the same plant.
   PlantDraw draw(RandomKey key) const;
-  /// Differs where any draw may.
-  std::uint64_t fingerprint() const;
 
  private:
   double moved(std::size_t row, const ParameterValues& species, double steps) const;

@@ -24,26 +24,37 @@ std::vector<Vec3> crown_points(const Plant& plant) {
 
 constexpr int kLayers = 16, kSectors = 16;
 
+/// Which of the sectors around the origin the point lies in, counted counter-clockwise: a quadrant, and a
+/// quarter of that. Comparisons alone, so that it is the same on every machine.
+std::size_t sector_of(double x, double y) {
+  constexpr double kTan22 = 0.41421356237309503, kTan67 = 2.414213562373095;  // of 22.5 and 67.5 degrees
+  const double right = std::fabs(x), back = std::fabs(y);
+  const int from_x_axis = (back > kTan22 * right) + (back > right) + (back > kTan67 * right);
+  const int quadrant = y >= 0 ? (x >= 0 ? 0 : 1) : (x < 0 ? 2 : 3);
+  return static_cast<std::size_t>(4 * quadrant + (quadrant % 2 == 0 ? from_x_axis : 3 - from_x_axis));
+}
+
 /// One layer of a crown: the outline around the middle of its points.
 struct CrownLayer {
   double x = 0, y = 0, count = 0;
-  std::array<double, kSectors> reach{};
+  std::array<double, kSectors> reach_squared{};
 
   void add_to_middle(Vec3 point) {
     x += static_cast<double>(point.x), y += static_cast<double>(point.y), count += 1;
   }
+  void end_middle() {
+    if (count > 0) x /= count, y /= count;
+  }
   void add_to_outline(Vec3 point) {
-    const double right = static_cast<double>(point.x) - x / count,
-                 back = static_cast<double>(point.y) - y / count;
-    const double turn = std::atan2(back, right) / (2 * std::numbers::pi) + 0.5;
-    double& farthest =
-        reach[static_cast<std::size_t>(std::min(kSectors - 1, static_cast<int>(turn * kSectors)))];
-    farthest = std::max(farthest, std::hypot(right, back));
+    const double right = static_cast<double>(point.x) - x, back = static_cast<double>(point.y) - y;
+    double& farthest = reach_squared[sector_of(right, back)];
+    farthest = std::max(farthest, right * right + back * back);
   }
   /// Triangles between the farthest points of neighbouring sectors.
   double area() const {
     double twice = 0;
-    for (std::size_t i = 0; i < kSectors; ++i) twice += reach[i] * reach[(i + 1) % kSectors];
+    for (std::size_t i = 0; i < kSectors; ++i)
+      twice += std::sqrt(reach_squared[i] * reach_squared[(i + 1) % kSectors]);
     return 0.5 * std::sin(2 * std::numbers::pi / kSectors) * twice;
   }
 };
@@ -55,6 +66,7 @@ double crown_volume_m3(std::span<const Vec3> points, double lowest_m, double tal
     return layers[static_cast<std::size_t>(std::clamp(static_cast<int>(share * kLayers), 0, kLayers - 1))];
   };
   for (const Vec3 point : points) layer_of(point).add_to_middle(point);
+  for (CrownLayer& layer : layers) layer.end_middle();
   for (const Vec3 point : points) layer_of(point).add_to_outline(point);
   double area = 0;
   for (const CrownLayer& layer : layers) area += layer.area();

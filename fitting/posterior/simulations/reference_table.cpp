@@ -49,6 +49,19 @@ void resize(std::size_t size, std::size_t unknowns, ReferenceTable& table) {
   table.attempt.resize(size);
 }
 
+/// Of the prior, of how plants grow and are measured: a hash of the first rows of a table.
+std::uint64_t fingerprint_of(const PlantPrior& prior, double height_m) {
+  constexpr std::size_t kRows = 4;
+  PlantSimulator simulator(prior, height_m);
+  std::uint64_t hash = prior.species().size();
+  for (std::size_t row = 0; row < kRows; ++row) {
+    const DrawnRow drawn = draw_row(prior, 1, row, simulator);
+    for (const std::vector<double>* numbers : {&drawn.simulation.unknowns, &drawn.simulation.summaries})
+      for (const double number : *numbers) hash = mix_bits(hash ^ std::bit_cast<std::uint64_t>(number));
+  }
+  return hash;
+}
+
 std::string names_of(const std::vector<Unknown>& unknowns) {
   std::string names;
   for (const Unknown& unknown : unknowns) names.append(names.empty() ? "" : ", ").append(unknown.name);
@@ -58,10 +71,10 @@ std::string names_of(const std::vector<Unknown>& unknowns) {
 /// All that a table's numbers depend on but their count, a line each.
 std::string head_of(const PlantPrior& prior, Seed seed, double height_m) {
   return fmt::format(
-      "espalier reference table 1\nmodel {}\nprior {:016x}\nseed {}\nheight_m {}\nunknowns {}\nsummaries "
-      "{}\n",
-      prior.model().table().model, prior.fingerprint(), seed, height_m, names_of(unknowns_of(prior)),
-      fmt::join(summary_names(), ", "));
+      "espalier reference table 1\nmodel {}\nseed {}\nheight_m {}\nunknowns {}\nsummaries {}\nprior "
+      "{:016x}\n",
+      prior.model().table().model, seed, height_m, names_of(unknowns_of(prior)),
+      fmt::join(summary_names(), ", "), fingerprint_of(prior, height_m));
 }
 
 template <typename Number>
@@ -115,7 +128,7 @@ void extend_table(const PlantPrior& prior, std::size_t size, int threads, const 
   while (done < size && progress(done, size)) {
     const std::size_t end = std::min(size, done + kBlock);
     resize(end, unknowns, table);
-    constexpr std::size_t kPart = 8;  // rows that share a simulator's memory
+    constexpr std::size_t kPart = 32;  // rows that share a simulator's memory
     parallel_for((end - done + kPart - 1) / kPart,
                  [&](std::size_t part) {
                    PlantSimulator simulator(prior, table.height_m);

@@ -188,8 +188,9 @@ TEST(ExportStudy, FunctionsAreNamedInAFileThatNoToolTakesForData) {
   export_study(study_of(kFits), "iohprofiler", out);
   EXPECT_THAT(read_text_file(out / "functions.md"), HasSubstr("| 2 | fir |"));
   for (const auto& entry : fs::recursive_directory_iterator(out))
-    if (entry.is_regular_file())
+    if (entry.is_regular_file()) {
       EXPECT_THAT(entry.path().extension().string(), testing::AnyOf(".info", ".dat", ".md")) << entry.path();
+    }
 }
 
 std::string error_of(const std::vector<HandMadeFit>& fits, const std::string& format, const fs::path& out) {

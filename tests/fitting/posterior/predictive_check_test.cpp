@@ -30,10 +30,11 @@ TEST(PredictiveCheck, TailSharesOfPicturesLikeTheReplicatesAreUniform) {
 
 TEST(PredictiveCheck, APictureBeyondAllIsUnlikely) {
   const Eigen::MatrixXd replicates = normal_rows(200, 10, 1);
-  const PredictiveCheck check = check_prediction(replicates, replicates, std::vector<double>(10, 6));
+  const PredictiveCheck check =
+      check_prediction(replicates, replicates, std::vector<double>(10, 6));  // each square counts 16
   EXPECT_NEAR(check.tail_share, 1.0 / 201, 1e-12);
   EXPECT_FALSE(check.is_likely());
-  EXPECT_GT(check.distance, 10 * check.usual);
+  EXPECT_NEAR(check.distance, 160, 1e-9);
 }
 
 TEST(PredictiveCheck, WhatReplicatesAllShareCountsInUnitsOfTheTable) {

@@ -16,7 +16,7 @@
 namespace espalier {
 namespace {
 
-const PlantPrior& prior() {
+const PlantPrior& table_prior() {
   static const PlantPrior made(model_by_name("weber_penn"));
   return made;
 }
@@ -25,7 +25,7 @@ bool always(std::size_t, std::size_t) { return true; }
 
 ReferenceTable table_of(std::size_t size, int threads, Seed seed = 1) {
   ReferenceTable table{.seed = seed};
-  extend_table(prior(), size, threads, always, table);
+  extend_table(table_prior(), size, threads, always, table);
   return table;
 }
 
@@ -37,17 +37,17 @@ bool same(const ReferenceTable& a, const ReferenceTable& b) {
 TEST(ReferenceTable, IsTheSameInPartsAndWithAnyNumberOfThreads) {
   const ReferenceTable whole = table_of(40, 2);
   ReferenceTable parts = table_of(13, 1);
-  extend_table(prior(), 40, 3, always, parts);
+  extend_table(table_prior(), 40, 3, always, parts);
   EXPECT_TRUE(same(whole, parts));
   EXPECT_FALSE(same(whole, table_of(40, 2, 2)));
 }
 
 TEST(ReferenceTable, RowsAreOfTheirDraws) {
   const ReferenceTable table = table_of(5, 1);
-  PlantSimulator simulator(prior(), table.height_m);
+  PlantSimulator simulator(table_prior(), table.height_m);
   for (std::size_t row = 0; row < 5; ++row) {
     Simulation simulation;
-    const PlantDraw draw = draw_of_row(prior(), table.seed, row, table.attempt[row]);
+    const PlantDraw draw = draw_of_row(table_prior(), table.seed, row, table.attempt[row]);
     ASSERT_TRUE(simulator.simulate(draw, simulation));
     EXPECT_EQ(table.species[row], draw.species);
     for (std::size_t i = 0; i < simulation.unknowns.size(); ++i)
@@ -62,7 +62,7 @@ TEST(ReferenceTable, RowsAreOfTheirDraws) {
 TEST(ReferenceTable, StopsWhereItIsToldAndKeepsWhatItHas) {
   ReferenceTable table;
   extend_table(
-      prior(), 600, 0, [](std::size_t done, std::size_t) { return done < 256; }, table);
+      table_prior(), 600, 0, [](std::size_t done, std::size_t) { return done < 256; }, table);
   EXPECT_EQ(table.size(), 256u);
 }
 
@@ -73,21 +73,21 @@ class TableFile : public testing::Test {
 };
 
 TEST_F(TableFile, GivesBackWhatItWasWrittenFrom) {
-  EXPECT_EQ(read_table(path, prior(), 1, 10).size(), 0u);
-  write_table(path, prior(), table);
-  EXPECT_TRUE(same(read_table(path, prior(), 1, 10), table));
+  EXPECT_EQ(read_table(path, table_prior(), 1, 10).size(), 0u);
+  write_table(path, table_prior(), table);
+  EXPECT_TRUE(same(read_table(path, table_prior(), 1, 10), table));
 }
 
 TEST_F(TableFile, IsRefusedWhereItIsOfAnotherSeedOrHeightOrDamaged) {
   const auto complaint = [&](Seed seed, double height_m) -> std::string {
     try {
-      read_table(path, prior(), seed, height_m);
+      read_table(path, table_prior(), seed, height_m);
     } catch (const InputError& error) {
       return error.what();
     }
     return "";
   };
-  write_table(path, prior(), table);
+  write_table(path, table_prior(), table);
   EXPECT_THAT(complaint(2, 10), testing::HasSubstr("got 'seed 1', expected 'seed 2'"));
   EXPECT_THAT(complaint(1, 12), testing::HasSubstr("got 'height_m 10', expected 'height_m 12'"));
   const std::string bytes = read_file(path);
@@ -106,16 +106,19 @@ TEST_F(TableFile, IsRefusedWhereItIsOfAnotherSeedOrHeightOrDamaged) {
 }
 
 TEST(PlantSimulator, QuantitiesFollowTheHeightAndNothingElseDoes) {
-  const PlantDraw draw = draw_of_row(prior(), 1, 3, 0);
+  const PlantDraw draw = draw_of_row(table_prior(), 1, 3, 0);
   Simulation small, large;
-  ASSERT_TRUE(PlantSimulator(prior(), 5).simulate(draw, small));
-  ASSERT_TRUE(PlantSimulator(prior(), 20).simulate(draw, large));
+  ASSERT_TRUE(PlantSimulator(table_prior(), 5).simulate(draw, small));
+  ASSERT_TRUE(PlantSimulator(table_prior(), 20).simulate(draw, large));
   EXPECT_EQ(small.summaries, large.summaries);
-  const std::vector<Unknown> unknowns = unknowns_of(prior());
+  const std::vector<Unknown> unknowns = unknowns_of(table_prior());
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
-    if (!unknowns[i].is_quantity) EXPECT_EQ(small.unknowns[i], large.unknowns[i]);
-    if (unknowns[i].name == "leaf_area")
+    if (!unknowns[i].is_quantity) {
+      EXPECT_EQ(small.unknowns[i], large.unknowns[i]);
+    }
+    if (unknowns[i].name == "leaf_area") {
       EXPECT_NEAR(large.unknowns[i], 16 * small.unknowns[i], 1e-6 * large.unknowns[i]);
+    }
   }
 }
 
