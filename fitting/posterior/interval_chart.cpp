@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <espalier/fitting/posterior/interval_chart.h>
@@ -9,8 +10,8 @@ namespace espalier {
 
 namespace {
 
-constexpr float kRowPx = 20, kTopPx = 74, kBottomPx = 46, kGapPx = 24, kTrackPx = 420, kWordsPx = 300;
-constexpr float kRightPx = 110;
+constexpr float kRowPx = 20, kTopPx = 74, kBottomPx = 46, kGapPx = 24, kTrackPx = 420, kWordsPx = 330;
+constexpr float kRightPx = 150;
 constexpr Rgb kTrack{225, 225, 225}, kWide{158, 202, 225}, kNarrow{0, 114, 178}, kMedian{20, 20, 20};
 
 struct Columns {
@@ -38,7 +39,7 @@ void add_heads(const Columns& columns, float bottom_px, ChartLayout& layout) {
   layout.labels.push_back({{20, 18},
                            "What the picture says of each unknown, for trees of any random numbers",
                            TextAnchor::start});
-  layout.labels.push_back({{columns.on_track(0.5), 50}, "share of the prior's plants below"});
+  layout.labels.push_back({{columns.on_track(0.5), 50}, "share of plants of the prior below"});
   layout.labels.push_back({{columns.words_px, 50}, "median [90 % interval]", TextAnchor::start});
   for (const double share : {0.0, 0.5, 1.0})
     layout.labels.push_back({{columns.on_track(share), bottom_px + 14}, fmt::format("{:g}", share)});
@@ -48,11 +49,18 @@ void add_heads(const Columns& columns, float bottom_px, ChartLayout& layout) {
 
 }  // namespace
 
+std::string number_in_words(double number) {
+  constexpr double kLeastWhole = 1000;  // three digits of these would take an exponent
+  if (std::fabs(number) < kLeastWhole) return fmt::format("{:.3g}", number);
+  const double unit = std::pow(10, std::floor(std::log10(std::fabs(number))) - 2);
+  return fmt::format("{:.0f}", std::round(number / unit) * unit);
+}
+
 std::string interval_in_words(const UnknownSummary& summary) {
   const auto [low, high] = summary.intervals.back();
-  const std::string unit =
-      summary.unknown.unit == "1" || summary.unknown.unit.empty() ? "" : " " + summary.unknown.unit;
-  return fmt::format("{:.3g} [{:.3g}, {:.3g}]{}", summary.median, low, high, unit);
+  const std::string& unit = summary.unknown.unit;
+  return fmt::format("{} [{}, {}]{}{}", number_in_words(summary.median), number_in_words(low),
+                     number_in_words(high), unit == "1" || unit.empty() ? "" : " ", unit == "1" ? "" : unit);
 }
 
 std::vector<std::size_t> chart_order(const std::vector<UnknownSummary>& summaries) {

@@ -12,7 +12,10 @@ struct PosteriorChart {
   int width_px = 0, height_px = 0;
 };
 
-/// "12.3 [8.1, 20.4] m³": the median and the 90 % interval.
+/// Three digits, without an exponent where it is large: "0.0123", "4.56", "123000".
+std::string number_in_words(double number);
+
+/// "12.3 [8.1, 20.4] m3": the median and the 90 % interval.
 std::string interval_in_words(const UnknownSummary& summary);
 
 /// Quantities first, then parameters, the best determined of both first.

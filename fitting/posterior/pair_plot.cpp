@@ -9,7 +9,7 @@ namespace espalier {
 
 namespace {
 
-constexpr float kCellPx = 96, kCellGapPx = 8, kNamesPx = 110, kGridTopPx = 34, kTicksPx = 70;
+constexpr float kCellPx = 96, kCellGapPx = 8, kNamesPx = 190, kGridTopPx = 34, kTicksPx = 70;
 constexpr Rgb kFrame{200, 200, 200}, kDot{0, 114, 178}, kBar{158, 202, 225};
 constexpr Eigen::Index kMostDots = 300;
 
@@ -90,9 +90,9 @@ PosteriorChart draw_pairs(const Eigen::MatrixXd& samples, const std::vector<Unkn
     const ChartPoint left = corner_of(0, row), below = corner_of(row, unknowns.size());
     chart.layout.labels.push_back({{left.x_px - 8, left.y_px + kCellPx / 2}, name, TextAnchor::end});
     chart.layout.labels.push_back(
-        {{below.x_px + kCellPx / 2, below.y_px + 4}, fmt::format("{:.3g}", axes[row].lower)});
-    chart.layout.labels.push_back(
-        {{below.x_px + kCellPx / 2, below.y_px + 18}, fmt::format("to {:.3g}", axes[row].upper)});
+        {{below.x_px + kCellPx / 2, below.y_px + 4}, number_in_words(axes[row].lower)});
+    chart.layout.labels.push_back({{below.x_px + kCellPx / 2, below.y_px + 18},
+                                   fmt::format("to {}", number_in_words(axes[row].upper))});
   }
   return chart;
 }

@@ -17,9 +17,9 @@ struct PlantQuantity {
 };
 
 inline constexpr std::array<PlantQuantity, 7> kPlantQuantities{{
-    {"crown_volume", "m³", 3, "of the layers of the crown, each the star-shaped outline around its middle"},
-    {"leaf_area", "m²", 2, "one side of all leaves and blossoms"},
-    {"wood_volume", "m³", 3, "of all stems, as frustums between their knots"},
+    {"crown_volume", "m3", 3, "of the layers of the crown, each the star-shaped outline around its middle"},
+    {"leaf_area", "m2", 2, "one side of all leaves and blossoms"},
+    {"wood_volume", "m3", 3, "of all stems, as frustums between their knots"},
     {"leaves", "1", 0, "leaves and blossoms"},
     {"stems", "1", 0, "stems of all levels, the trunk among them"},
     {"crown_base", "m", 1, "height below which a fiftieth of the leaves lies, or of a bare tree's branches"},

@@ -41,7 +41,7 @@ TEST(TargetPosteriors, LeaveATableWithTheTruthWhereItIsKnown) {
   EXPECT_TRUE(fs::exists(folder / "posteriors/plants_10.bin"));
   write_target_posteriors(folder, two_targets(), small_options());
   const std::string csv = read_file(folder / "posteriors.csv");
-  EXPECT_THAT(csv, testing::ContainsRegex("\"a fir\",crown_volume,m³,[^\n]*,,\n"));
+  EXPECT_THAT(csv, testing::ContainsRegex("\"a fir\",crown_volume,m3,[^\n]*,,\n"));
   EXPECT_THAT(csv, testing::ContainsRegex("\"as if an aspen\",ratio,1,[^\n]*,0.01[0-9]*,[01]\n"));
   EXPECT_THAT(csv, testing::ContainsRegex("\"as if an aspen\",stems,1,[^\n]*,[0-9.e+]+,[01]\n"));
   for (const char* target : {"a-fir", "aspen"})

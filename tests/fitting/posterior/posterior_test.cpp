@@ -6,6 +6,7 @@
 #include <random>
 
 #include <espalier/core/error.h>
+#include <espalier/fitting/posterior/interval_chart.h>
 #include <espalier/fitting/posterior/posterior_summary.h>
 
 namespace espalier {
@@ -123,6 +124,14 @@ TEST(Posterior, EqualDrawsComeInProportionToTheWeights) {
   std::array<int, 3> counts{};
   for (const std::size_t row : equal_draws(posterior, 100)) ++counts[row];
   EXPECT_EQ(counts, (std::array<int, 3>{50, 20, 30}));
+}
+
+TEST(Posterior, NumbersHaveThreeDigitsAndNoExponent) {
+  EXPECT_EQ(number_in_words(0.012345), "0.0123");
+  EXPECT_EQ(number_in_words(-4.5678), "-4.57");
+  EXPECT_EQ(number_in_words(123456), "123000");
+  EXPECT_EQ(number_in_words(-1005), "-1010");
+  EXPECT_EQ(number_in_words(0), "0");
 }
 
 TEST(Posterior, NeedsATable) {
