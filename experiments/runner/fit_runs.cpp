@@ -27,10 +27,12 @@ struct FitCell {
   int unseen_seeds = 0, siblings = 0, threads = 1;
 };
 
-/// Whether two records ask for the same: a record on disk also knows its target's hash and its versions.
-bool same_request(FitRecord a, FitRecord b) {
-  for (FitRecord* record : {&a, &b}) record->target_hash.clear(), record->versions.clear();
-  return record_to_toml(a, std::nullopt) == record_to_toml(b, std::nullopt);
+/// Whether a record on disk asks for what `request` does: it also knows its target's hash, its versions, and
+/// what freedom its kind of tree has.
+bool same_request(FitRecord on_disk, FitRecord request) {
+  for (FitRecord* record : {&on_disk, &request}) record->target_hash.clear(), record->versions.clear();
+  if (request.freedom == kFreedomOfKind) request.freedom = on_disk.freedom;
+  return record_to_toml(on_disk, std::nullopt) == record_to_toml(request, std::nullopt);
 }
 
 /// True where `directory` holds this fit, begun before; one that died before its record was written is

@@ -83,6 +83,7 @@ std::string result_to_json(const PosteriorRequest& request, const PosteriorResul
   json["check"] = {{"distance", result.check.distance},
                    {"usual_distance", result.check.usual},
                    {"tail_share", result.check.tail_share},
+                   {"near_tail_share", result.check.near_tail_share},
                    {"likely", result.check.is_likely()}};
   for (const SpeciesShare& species : result.species) json["species"][species.species] = species.share;
   for (const UnknownSummary& row : result.unknowns)
@@ -157,6 +158,7 @@ PosteriorResult compute_posterior(const PosteriorRequest& request, const Mask& m
   Posterior posterior = estimator.estimate(observed);
   const Eigen::MatrixXd replicates = replicated_summaries(prior, table, posterior, threads);
   result.check = check_prediction(replicates, table.summaries, observed);
+  result.check.near_tail_share = near_tail_share(table.summaries.topRows(rows_asked), observed);
   if (!result.check.is_likely()) posterior = prior_as_posterior(table.unknowns.topRows(rows_asked));
   result.simulations = request.simulations;
   result.unknowns = summarize(estimator, posterior, unknowns_of(prior));
@@ -179,10 +181,10 @@ std::string posterior_in_words(const PosteriorResult& result) {
   std::string text;
   if (!result.check.is_likely())
     text += fmt::format(
-        "no plant of the prior makes such a picture: its silhouette is {:.0f} times as far from those of the "
-        "nearest plants as "
-        "they are from each other (tail share {:.3f}); what follows is the prior\n",
-        result.check.distance / std::max(result.check.usual, 1e-12), result.check.tail_share);
+        "no plant of the prior makes such a picture: of the plants of its posterior {:.1f} % are as odd, of "
+        "those of the "
+        "prior {:.1f} % as alone; what follows is the prior\n",
+        100 * result.check.tail_share, 100 * result.check.near_tail_share);
   for (const UnknownSummary& row : result.unknowns)
     if (row.unknown.is_quantity)
       text += fmt::format("{:<13} {:<32} {}\n", row.unknown.name, interval_in_words(row),

@@ -1,3 +1,4 @@
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -80,6 +81,61 @@ PredictiveCheck check_prediction(const Eigen::MatrixXd& replicates, const Eigen:
   const auto as_far = static_cast<double>((distances.array() >= check.distance).count());
   check.tail_share = (as_far + 1) / (static_cast<double>(replicates.rows()) + 1);
   return check;
+}
+
+namespace {
+
+/// Summaries along the principal axes of the table, in standard deviations; axes along which plants hardly
+/// differ are left out.
+class WhiteSummaries {
+ public:
+  explicit WhiteSummaries(const Eigen::MatrixXd& table)
+      : mean_(table.colwise().mean()), unit_(deviations(table).cwiseMax(1e-12)) {
+    constexpr double kLeastVariance = 0.01;
+    const Eigen::MatrixXd scaled = scale(table);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled.transpose() * scaled /
+                                                                static_cast<double>(table.rows()));
+    const Eigen::VectorXd& variances = solver.eigenvalues();  // the least first
+    const Eigen::Index kept = (variances.array() > kLeastVariance).count();
+    axes_ =
+        solver.eigenvectors().rightCols(kept) * variances.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  }
+
+  Eigen::MatrixXd operator()(const Eigen::MatrixXd& rows) const { return scale(rows) * axes_; }
+
+ private:
+  Eigen::MatrixXd scale(const Eigen::MatrixXd& rows) const {
+    return (rows.rowwise() - mean_).array().rowwise() / unit_.array();
+  }
+
+  Eigen::RowVectorXd mean_, unit_;
+  Eigen::MatrixXd axes_;
+};
+
+/// Squared distance to the fifth nearest row.
+double distance_to_fifth(const Eigen::MatrixXd& rows, const Eigen::RowVectorXd& point) {
+  constexpr Eigen::Index kFifth = 4;
+  Eigen::VectorXd distances = (rows.rowwise() - point).rowwise().squaredNorm();
+  std::nth_element(distances.begin(), distances.begin() + kFifth, distances.end());
+  return distances[kFifth];
+}
+
+}  // namespace
+
+double near_tail_share(const Eigen::MatrixXd& table_summaries, const std::vector<double>& observed) {
+  constexpr Eigen::Index kCompared = 500;  // plants, held against all others
+  const Eigen::Index compared = std::min(kCompared, table_summaries.rows() / 2);
+  if (compared < 5) return 1;
+  const WhiteSummaries white(table_summaries);
+  const Eigen::MatrixXd plants = white(table_summaries);
+  const Eigen::MatrixXd picture =
+      white(Eigen::Map<const Eigen::RowVectorXd>(observed.data(), table_summaries.cols()));
+  const Eigen::MatrixXd others = plants.bottomRows(plants.rows() - compared);
+  const double distance = distance_to_fifth(others, picture);
+  double as_alone = 1;
+  for (Eigen::Index i = 0; i < compared; ++i)
+    as_alone += distance_to_fifth(others, plants.row(i)) >= distance ? 1 : 0;
+  return as_alone / (static_cast<double>(compared) + 1);
 }
 
 }  // namespace espalier

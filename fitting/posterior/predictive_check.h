@@ -16,7 +16,8 @@ struct PredictiveCheck {
   double usual = 0;     ///< median distance of these plants among themselves
   double tail_share =
       1;  ///< of plants at least as far out as the picture, itself counted: 1/(n + 1) at least
-  bool is_likely() const { return tail_share > 0.01; }
+  double near_tail_share = 1;  ///< of plants of the prior at least as far from all others as the picture
+  bool is_likely() const { return tail_share > 0.01 && near_tail_share > 0.01; }
 };
 
 /// Plants of the posterior, each with random numbers of its own, that the check draws.
@@ -32,5 +33,11 @@ Eigen::MatrixXd replicated_summaries(const PlantPrior& prior, const ReferenceTab
 /// counts more than 16: one odd summary makes no odd picture.
 PredictiveCheck check_prediction(const Eigen::MatrixXd& replicates, const Eigen::MatrixXd& table_summaries,
                                  const std::vector<double>& observed);
+
+/// How alone the picture is among the plants of the prior: the share of plants that are at least as far from
+/// their fifth nearest as the picture is, itself counted. Distances are between summaries along their
+/// principal axes, in standard deviations (Box, Journal of the Royal Statistical Society A 143, 1980: the
+/// prior predictive check).
+double near_tail_share(const Eigen::MatrixXd& table_summaries, const std::vector<double>& observed);
 
 }  // namespace espalier

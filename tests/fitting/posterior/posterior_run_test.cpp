@@ -106,7 +106,7 @@ TEST(PosteriorRun, OfASquareSaysThatNoPlantMakesItAndGivesThePrior) {
 
 TEST(PosteriorRun, OfTreesOfThePriorIsSeldomUnlikely) {
   int unlikely = 0;
-  for (std::uint64_t i = 10; i < 20; ++i)
+  for (std::uint64_t i = 10; i < 16; ++i)
     unlikely += !compute_posterior(small_request(), tree_of(i), fresh_folder("posterior_trees"), 0, always)
                      .check.is_likely();
   EXPECT_LE(unlikely, 1);
@@ -114,7 +114,7 @@ TEST(PosteriorRun, OfTreesOfThePriorIsSeldomUnlikely) {
 
 /// Mean share of the unknowns of trees outside of the table that lie in their 90 % intervals, these narrowed.
 double coverage_90(double narrowed) {
-  constexpr std::uint64_t kTrees = 120;
+  constexpr std::uint64_t kTrees = 100;
   static const PlantPrior prior(model_by_name("weber_penn"));
   const ReferenceTable table = read_table(shared_table(), prior, 1, 10);
   const auto rows = static_cast<Eigen::Index>(kLeastTableSize);

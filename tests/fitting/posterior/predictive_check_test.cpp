@@ -45,6 +45,18 @@ TEST(PredictiveCheck, WhatReplicatesAllShareCountsInUnitsOfTheTable) {
   EXPECT_FALSE(check_prediction(replicates, table, {0, 1}).is_likely());
 }
 
+TEST(PredictiveCheck, APictureIsAloneWhereNoPlantIsNear) {
+  const Eigen::MatrixXd table = normal_rows(2000, 6, 4), pictures = normal_rows(100, 6, 5);
+  int alone = 0;
+  for (const auto& picture : pictures.rowwise())
+    alone += near_tail_share(table, {picture.begin(), picture.end()}) < 0.1;
+  EXPECT_NEAR(alone, 10, 9);
+  EXPECT_LE(near_tail_share(table, std::vector<double>(6, 5)), 0.002);
+  Eigen::MatrixXd ring = table;  // not beyond any plant in any summary, but where none is
+  ring.rowwise().normalize();
+  EXPECT_LE(near_tail_share(ring, std::vector<double>(6, 0)), 0.002);
+}
+
 TEST(PredictiveCheck, WithoutReplicatesSaysNothing) {
   EXPECT_EQ(check_prediction(Eigen::MatrixXd(0, 2), normal_rows(9, 2, 1), {0, 0}).tail_share, 1);
 }
