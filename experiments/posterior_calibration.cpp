@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -186,6 +187,7 @@ LineChart rank_chart(const std::vector<Unknown>& unknowns,
   const auto trees = static_cast<double>(verdicts.size());
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
     std::vector<double> ranks;
+    ranks.reserve(verdicts.size());
     for (const std::vector<Verdict>& tree : verdicts) ranks.push_back(tree[i].rank);
     std::sort(ranks.begin(), ranks.end());
     for (std::size_t k = 0; k < ranks.size(); k += 4)
@@ -196,7 +198,7 @@ LineChart rank_chart(const std::vector<Unknown>& unknowns,
   const ChartLine outline{.name = "95 % band",
                           .color = kBandColor,
                           .points = {{0, band}, {1, band}, {1, -band}, {0, -band}, {0, band}}};
-  return {"rank of the truth among the posterior's draws",
+  return {"rank of the truth among draws of the posterior",
           "share of trees below, less the rank",
           {parameters, quantities, outline}};
 }
@@ -247,22 +249,30 @@ void calibrate(const CalibrationOptions& options) {
   fmt::print("{}", groups_csv(calibrations));
 }
 
-}  // namespace
-}  // namespace espalier
-
-int main(int argc, char** argv) {
-  espalier::CalibrationOptions options;
+/// The exit code.
+int run(int argc, char** argv) {
+  CalibrationOptions options;
   CLI::App app("Coverage of posteriors on trees drawn from their prior");
   app.add_option("directory", options.directory)->required();
   app.add_option("--truths", options.truths)->check(CLI::Range(10, 100'000));
   app.add_option("--simulations", options.simulations);
   app.add_option("--seed", options.seed);
   CLI11_PARSE(app, argc, argv);
-  try {
-    espalier::calibrate(options);
-  } catch (const espalier::InputError& error) {
-    fmt::print(stderr, "posterior_calibration: {}\n", error.what());
-    return 2;
-  }
+  calibrate(options);
   return 0;
+}
+
+}  // namespace
+}  // namespace espalier
+
+int main(int argc, char** argv) {
+  try {
+    return espalier::run(argc, argv);
+  } catch (const espalier::InputError& error) {
+    fmt::print(stderr, "{}: {}\n", argv[0], error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}: {}\n", argv[0], error.what());
+    return 1;
+  }
 }

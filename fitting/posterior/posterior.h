@@ -38,11 +38,11 @@ class PosteriorEstimator {
 
  private:
   ColumnScores unknown_scores_of_, summary_scores_of_;
-  Eigen::MatrixXd unknown_scores_;
   SummaryRegression regression_;
-  Eigen::MatrixXd predictions_;
+  Eigen::MatrixXd residuals_;  ///< scores of the draws' unknowns, less their predictions
+  Eigen::MatrixXd points_;     ///< of the draws' predictions
   Eigen::RowVectorXd lowest_,
-      highest_;  ///< of nearly all predictions: a picture beyond is taken to be at the end
+      highest_;  ///< nearly all predictions: a picture beyond is taken to be at the end
 };
 
 /// The value below which `share` of the weight lies, linear between the middles of the draws' weights.

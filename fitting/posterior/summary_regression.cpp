@@ -93,7 +93,7 @@ Eigen::MatrixXd solve_ridge(Eigen::MatrixXd products, const Eigen::MatrixXd& wit
 
 SummaryRegression::SummaryRegression(const Eigen::MatrixXd& summary_scores,
                                      const Eigen::MatrixXd& unknown_scores)
-    : features_(summary_scores) {
+    : features_(summary_scores), mean_(unknown_scores.colwise().mean()) {
   const Eigen::MatrixXd features = features_.features(summary_scores), unknowns = centred(unknown_scores);
   const Eigen::MatrixXd products = features.transpose() * features,
                         with_unknowns = features.transpose() * unknowns;
@@ -104,19 +104,19 @@ SummaryRegression::SummaryRegression(const Eigen::MatrixXd& summary_scores,
         solve_ridge(products - left_out.transpose() * left_out,
                     with_unknowns - left_out.transpose() * rows_of_fold(unknowns, fold),
                     static_cast<double>(features.rows() - left_out.rows()));
-    of_draws_(Eigen::seq(fold, Eigen::last, kFolds), Eigen::all) = left_out * coefficients;
+    of_draws_(Eigen::seq(fold, Eigen::last, kFolds), Eigen::all) =
+        (left_out * coefficients).rowwise() + mean_;
   }
   const Axes axes = principal_axes(centred(of_draws_));
   Eigen::Index kept = 0;
   while (kept < axes.variances.size() && axes.variances[kept] > kLeastVariance) ++kept;
-  const Eigen::MatrixXd whitening =
+  whitening_ =
       axes.vectors.leftCols(kept) * axes.variances.head(kept).cwiseSqrt().cwiseInverse().asDiagonal();
-  of_draws_ = of_draws_ * whitening;
-  coefficients_ = solve_ridge(products, with_unknowns, static_cast<double>(features.rows())) * whitening;
+  coefficients_ = solve_ridge(products, with_unknowns, static_cast<double>(features.rows()));
 }
 
 Eigen::MatrixXd SummaryRegression::predict(const Eigen::MatrixXd& summary_scores) const {
-  return features_.features(summary_scores) * coefficients_;
+  return (features_.features(summary_scores) * coefficients_).rowwise() + mean_;
 }
 
 }  // namespace espalier

@@ -41,17 +41,20 @@ class SummaryRegression {
  public:
   /// Scores of summaries and of unknowns, a row a draw.
   SummaryRegression(const Eigen::MatrixXd& summary_scores, const Eigen::MatrixXd& unknown_scores);
-  /// Predicted scores of the unknowns, turned to their principal components and scaled to unit variance over
-  /// the draws: at most as many columns as unknowns, those that differ. A row a row.
+  /// Predicted scores of the unknowns, a row a row.
   Eigen::MatrixXd predict(const Eigen::MatrixXd& summary_scores) const;
   /// The same of the draws themselves, each by a regression without it and a fifth of the others: as far from
   /// the truth as that of a picture which the regression has not seen.
   const Eigen::MatrixXd& predictions_of_draws() const { return of_draws_; }
+  /// Predictions turned to their principal components and scaled to unit variance over the draws: where
+  /// distances are measured. At most as many columns as unknowns, those that differ.
+  Eigen::MatrixXd points(const Eigen::MatrixXd& predictions) const { return predictions * whitening_; }
 
  private:
   SummaryFeatures features_;
+  Eigen::RowVectorXd mean_;       ///< of the unknowns' scores
   Eigen::MatrixXd coefficients_;  ///< features → predictions
-  Eigen::MatrixXd of_draws_;
+  Eigen::MatrixXd of_draws_, whitening_;
 };
 
 }  // namespace espalier
