@@ -37,7 +37,7 @@ std::string line_of(const Trial& trial) {
   return line + "\n";
 }
 
-void count(FitStage stage, TrialCounts& counts) {
+void count_trial(FitStage stage, TrialCounts& counts) {
   if (counts.empty() || counts.back().first != stage) counts.emplace_back(stage, 0);
   ++counts.back().second;
 }
@@ -72,7 +72,7 @@ TrialCounts write_trials(const fs::path& run, const fs::path& csv) {
         run, [&](const ParameterTable& table) { take(head_of(table)); },
         [&](const Trial& trial) {
           take(line_of(trial));
-          count(trial.stage, counts);
+          count_trial(trial.stage, counts);
         });
   });
   return counts;

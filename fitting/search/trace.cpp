@@ -102,6 +102,7 @@ std::string trace_to_csv(const std::vector<TraceRow>& rows) {
 std::string fitness_in_words(const MaskObjective& objective, const std::string& less) {
   constexpr std::size_t kMostLetters = 40;  // as many as fit beside the axis
   std::vector<std::string> parts;
+  parts.reserve(objective.terms.size() + 1);
   for (const ObjectiveTerm& term : objective.terms)
     parts.push_back((parts.empty() ? "" : "+ ") + (objective.terms.size() == 1
                                                        ? term.name

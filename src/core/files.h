@@ -11,9 +11,10 @@ namespace espalier {
 /// Replaces the file `path`. Throws InputError with one line (path and reason) where it cannot.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
+using TakeBytes = std::function<void(std::string_view bytes)>;
+
 /// The same of bytes that come piece by piece: `write` is called once, with what takes them. Where it throws,
 /// the old file stays.
-using TakeBytes = std::function<void(std::string_view bytes)>;
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(const TakeBytes& take)>& write);
 

@@ -1,6 +1,6 @@
 // What `espalier bench` measures: evaluations (grow, draw, compare) of a species at a size, on one thread and
-// on all, and how far the drawn picture is from Embree's. Of trees with leaves, what leaves cover is drawn apart, as fits
-// ask for it. Seconds, bytes and pixels.
+// on all, and how far the drawn picture is from Embree's. Of trees with leaves, what leaves cover is drawn
+// apart, as fits ask for it. Seconds, bytes and pixels.
 #pragma once
 #include <cstddef>
 #include <string>

@@ -81,10 +81,8 @@ struct Topic {
 };
 
 constexpr Topic kTopics[] = {
-    {"fit", fit_options_as_markdown},
-    {"experiment", experiment_keys_as_markdown},
-    {"measures", measures_as_markdown},
-    {"lsystem-commands", lsystem_commands_as_markdown},
+    {"fit", fit_options_as_markdown},       {"experiment", experiment_keys_as_markdown},
+    {"measures", measures_as_markdown},     {"lsystem-commands", lsystem_commands_as_markdown},
     {"optimizers", optimizers_as_markdown},
 };
 

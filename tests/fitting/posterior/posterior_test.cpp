@@ -48,20 +48,34 @@ std::vector<double> row_of(const Eigen::MatrixXd& matrix, Eigen::Index row) {
   return {matrix.row(row).begin(), matrix.row(row).end()};
 }
 
-/// The share of `truths` that lie in the central interval; `narrowed` multiplies its distance from the
-/// median.
+constexpr Eigen::Index kTruths = 400;
+
+const Toy& truths() {
+  static const Toy drawn = draw_toy(kTruths, 2);
+  return drawn;
+}
+
+const std::vector<Posterior>& posteriors_of_truths() {
+  static const std::vector<Posterior> all = [] {
+    std::vector<Posterior> made;
+    for (Eigen::Index i = 0; i < kTruths; ++i)
+      made.push_back(estimator().estimate(row_of(truths().summaries, i)));
+    return made;
+  }();
+  return all;
+}
+
+/// The share of truths that lie in the central interval; `narrowed` multiplies its distance from the median.
 double coverage(double share, double narrowed, Eigen::Index unknown) {
-  constexpr Eigen::Index kTruths = 400;
-  const Toy truths = draw_toy(kTruths, 2);
   int held = 0;
   for (Eigen::Index i = 0; i < kTruths; ++i) {
-    const Posterior posterior = estimator().estimate(row_of(truths.summaries, i));
+    const Posterior& posterior = posteriors_of_truths()[static_cast<std::size_t>(i)];
     const auto k = static_cast<std::size_t>(unknown);
     const double middle = posterior_quantile(posterior, k, 0.5);
     const auto end = [&](double at) {
       return middle + narrowed * (posterior_quantile(posterior, k, at) - middle);
     };
-    const double truth = truths.unknowns(i, unknown);
+    const double truth = truths().unknowns(i, unknown);
     held += end(0.5 - share / 2) <= truth && truth <= end(0.5 + share / 2);
   }
   return static_cast<double>(held) / static_cast<double>(kTruths);
@@ -81,15 +95,15 @@ TEST(Posterior, OneTooNarrowByAThirdIsNoticed) {
 }
 
 TEST(Posterior, IsTheNormalOneOfANormalModel) {
-  const Toy truths = draw_toy(20, 3);
+  const Toy some = draw_toy(20, 3);
   const double deviation = kNoise / std::sqrt(1 + kNoise * kNoise);
-  for (Eigen::Index i = 0; i < truths.unknowns.rows(); ++i) {
-    const Posterior posterior = estimator().estimate(row_of(truths.summaries, i));
+  for (Eigen::Index i = 0; i < some.unknowns.rows(); ++i) {
+    const Posterior posterior = estimator().estimate(row_of(some.summaries, i));
     EXPECT_NEAR(posterior.weights.sum(), 1, 1e-9);
     for (Eigen::Index k = 0; k < 2; ++k) {
-      if (std::fabs(truths.summaries(i, k)) > 2) continue;  // few draws are near
+      if (std::fabs(some.summaries(i, k)) > 2) continue;  // few draws are near
       const auto unknown = static_cast<std::size_t>(k);
-      const double mean = truths.summaries(i, k) / (1 + kNoise * kNoise);
+      const double mean = some.summaries(i, k) / (1 + kNoise * kNoise);
       EXPECT_NEAR(posterior_quantile(posterior, unknown, 0.5), mean, 0.15);
       const double width =
           posterior_quantile(posterior, unknown, 0.95) - posterior_quantile(posterior, unknown, 0.05);
