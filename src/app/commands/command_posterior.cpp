@@ -33,7 +33,7 @@ struct PosteriorOptions {
 fs::path directory_of(const PosteriorOptions& options) {
   if (options.out.empty())
     return fs::path("runs") / (fs::path(options.request.picture).stem().string() + "-posterior");
-  const fs::path out = options.out;
+  fs::path out = options.out;
   std::error_code ignored;
   if (!fs::exists(out, ignored) || fs::exists(out / "table.bin", ignored) ||
       fs::exists(out / "posterior.json", ignored))
