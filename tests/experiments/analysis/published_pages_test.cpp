@@ -19,7 +19,8 @@ TEST(PublishedPages, HoldWhatTheirExperimentsAreExpectedToShow) {
       EXPECT_TRUE(checked.holds) << page.path().filename() << ": " << checked.expectation.text() << ", got "
                                  << checked.got;
   }
-  EXPECT_GE(checked_pages, 4) << "closeness, optimizers, ga_progress, growth";
+  EXPECT_GE(checked_pages, 6)
+      << "closeness, unseen_side, posterior_calibration, optimizers, ga_progress, growth";
 }
 
 }  // namespace
