@@ -17,8 +17,6 @@ class NormalScores {
   double score(double value) const;
   /// The inverse, linear between neighbouring values and never beyond them.
   double value(double score) const;
-  /// All values are one.
-  bool is_constant() const { return sorted_.front() == sorted_.back(); }
 
  private:
   std::vector<double> sorted_;

@@ -34,7 +34,6 @@ class PosteriorEstimator {
   double prior_quantile(std::size_t unknown, double share) const;
   /// The share of the table's draws below the value.
   double prior_share(std::size_t unknown, double value) const;
-  std::size_t unknowns() const { return unknown_scores_of_.size(); }
 
  private:
   ColumnScores unknown_scores_of_, summary_scores_of_;

@@ -11,6 +11,7 @@
 #include <espalier/fitting/posterior/pair_plot.h>
 #include <espalier/fitting/posterior/posterior_run.h>
 #include <espalier/fitting/posterior/simulations/silhouette_summaries.h>
+#include <espalier/image/pictures/decode.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/models/models.h>
 
@@ -119,6 +120,27 @@ ReferenceTable extended_table(const PosteriorRequest& request, const PlantPrior&
   return table;
 }
 
+bool is_picture_of(const fs::path& path, const Mask& mask) {
+  const DecodedPicture picture = decode_picture(path);
+  if (picture.width_px != mask.width_px() || picture.height_px != mask.height_px()) return false;
+  for (int y = 0; y < mask.height_px(); ++y)
+    for (int x = 0; x < mask.width_px(); ++x)
+      if ((picture.at(x, y)[0] > 0.5F) != mask.get(x, y)) return false;
+  return true;
+}
+
+/// What would be lost, or fail after all plants were drawn.
+void check_places(const fs::path& directory, const fs::path& table, const Mask& silhouette) {
+  std::error_code ignored;
+  const fs::path earlier = directory / "silhouette.png";
+  if (fs::exists(earlier, ignored) && !is_picture_of(earlier, silhouette))
+    throw_input_error("{}: got the posterior of another picture, expected a directory of its own",
+                      directory.string());
+  const fs::path folder = table.parent_path();  // of a table that was named
+  if (!folder.empty() && !fs::is_directory(folder, ignored))
+    throw_field_error("table", "got '{}', expected a file in a folder that exists", table.string());
+}
+
 std::vector<std::string> names_of(const std::vector<UnknownSummary>& unknowns, Determination determination) {
   std::vector<std::string> names;
   for (const std::size_t i : chart_order(unknowns))
@@ -146,10 +168,11 @@ PosteriorResult compute_posterior(const PosteriorRequest& request, const Mask& m
   const PlantPrior prior(model_by_name(request.model));
   const Mask framed = framed_for_summaries(mask);
   const std::vector<double> observed = summaries_of(framed);
+  const fs::path path = request.table.empty() ? directory / "table.bin" : request.table;
+  check_places(directory, request.table, framed);
   std::error_code error;
   fs::create_directories(directory, error);
   if (error) throw_input_error("{}: cannot be made: {}", directory.string(), error.message());
-  const fs::path path = request.table.empty() ? directory / "table.bin" : request.table;
   ReferenceTable table = extended_table(request, prior, path, threads, progress);
   PosteriorResult result{.unknowns = {}, .species = {}, .check = {}, .simulations = table.size()};
   if (table.size() < request.simulations) return result;
@@ -157,7 +180,7 @@ PosteriorResult compute_posterior(const PosteriorRequest& request, const Mask& m
   const PosteriorEstimator estimator(table.unknowns.topRows(rows_asked), table.summaries.topRows(rows_asked));
   Posterior posterior = estimator.estimate(observed);
   const Eigen::MatrixXd replicates = replicated_summaries(prior, table, posterior, threads);
-  result.check = check_prediction(replicates, table.summaries, observed);
+  result.check = check_prediction(replicates, table.summaries.topRows(rows_asked), observed);
   result.check.near_tail_share = near_tail_share(table.summaries.topRows(rows_asked), observed);
   if (!result.check.is_likely()) posterior = prior_as_posterior(table.unknowns.topRows(rows_asked));
   result.simulations = request.simulations;

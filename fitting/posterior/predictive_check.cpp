@@ -26,8 +26,7 @@ PlantDraw plant_of(const PlantPrior& prior, const ReferenceTable& table, const P
   for (std::size_t i = 0; i < prior.rows().size(); ++i) {
     const ParameterInfo& info = prior.model().table().rows[prior.rows()[i]];
     const double value = posterior.unknowns(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i));
-    const bool is_whole = info.scale == Scale::integer && !info.relaxable;
-    plant.values[prior.rows()[i]] = is_whole ? std::round(value) : value;
+    plant.values[prior.rows()[i]] = whole_where_it_must(info, value);
   }
   plant.seed = random_bits(root_key(table.seed), kPurpose, static_cast<std::uint32_t>(replicate));
   return plant;

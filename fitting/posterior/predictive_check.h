@@ -1,6 +1,6 @@
-// Whether plants of the posterior make pictures like the observed one: the check that tells a posterior from
-// a narrow answer to a picture that no plant of the prior makes. Rubin (The Annals of Statistics 12, 1984);
-// Gelman, Meng, Stern (Statistica Sinica 6, 1996).
+// What tells a posterior from a narrow answer to a picture that no plant of the prior makes: whether plants
+// of the posterior make pictures like it (Rubin, The Annals of Statistics 12, 1984; Gelman, Meng, Stern,
+// Statistica Sinica 6, 1996), and whether any plant of the prior is near it.
 #pragma once
 #include <Eigen/Core>
 #include <vector>

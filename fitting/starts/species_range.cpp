@@ -19,11 +19,11 @@ double relative(const ParameterTable& table, std::size_t row, const ParameterVal
   return values[row] / size_of(table, row, values);
 }
 
-bool is_size(const ParameterInfo& row) {
+}  // namespace
+
+bool is_tree_size(const ParameterInfo& row) {
   return row.role.role == Role::tree_scale || row.role.role == Role::tree_scale_variation;
 }
-
-}  // namespace
 
 std::vector<double> spread_of_species(const ParameterTable& table, std::span<const ParameterValues> species) {
   std::vector<double> spread(table.rows.size(), 0);
@@ -48,7 +48,7 @@ void keep_to_species(const ParameterTable& table, const ParameterValues& species
                      std::span<const double> spread, SearchChoice& choice) {
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const ParameterInfo& info = table.rows[row];
-    if (is_size(info)) continue;
+    if (is_tree_size(info)) continue;
     if (spread[row] <= 0) {
       choice.fixed.insert({info.full_name(), species[row]});
       continue;

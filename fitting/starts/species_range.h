@@ -12,6 +12,9 @@ namespace espalier {
 /// Standard deviation of each row over these species; 0 for choices.
 std::vector<double> spread_of_species(const ParameterTable& table, std::span<const ParameterValues> species);
 
+/// Whether the row says how large the tree is, and not what it is like.
+bool is_tree_size(const ParameterInfo& row);
+
 /// Half of the spread of species, in the units of this row of a species' own values.
 double reach_of_species(const ParameterTable& table, std::size_t row, const ParameterValues& species,
                         std::span<const double> spread);

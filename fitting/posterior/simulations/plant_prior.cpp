@@ -33,11 +33,11 @@ double reflected(double value, double lower, double upper) {
   return lower + (past <= range ? past : 2 * range - past);
 }
 
-bool is_size(const ParameterInfo& row) {
-  return row.role.role == Role::tree_scale || row.role.role == Role::tree_scale_variation;
-}
-
 }  // namespace
+
+double whole_where_it_must(const ParameterInfo& row, double value) {
+  return row.scale == Scale::integer && !row.relaxable ? std::round(value) : value;
+}
 
 PlantPrior::PlantPrior(const Model& model) : model_(&model) {
   for (Preset& preset : bundled_species(model.table().model))
@@ -51,7 +51,7 @@ PlantPrior::PlantPrior(const Model& model) : model_(&model) {
   spread_ = spread_of_species(model.table(), values);
   for (std::size_t row = 0; row < spread_.size(); ++row)
     if (const ParameterInfo& info = model.table().rows[row];
-        info.free_by_default && spread_[row] > 0 && !is_size(info))
+        info.free_by_default && spread_[row] > 0 && !is_tree_size(info))
       rows_.push_back(row);
 }
 
@@ -65,8 +65,7 @@ double PlantPrior::moved(std::size_t row, const ParameterValues& species, double
   if (info.sign == SignMeaning::flag) (value >= 0 ? lower : upper) = 0;
   const double reach = reach_of_species(model_->table(), row, species, spread_);
   const double result = reflected(value + steps * reach, lower, upper);
-  const bool is_whole = info.scale == Scale::integer && !info.relaxable;
-  return std::clamp(is_whole ? std::round(result) : result, info.lower, info.upper) + 0.0;  // + 0.0: never -0
+  return std::clamp(whole_where_it_must(info, result), info.lower, info.upper) + 0.0;  // + 0.0: never -0
 }
 
 PlantDraw PlantPrior::draw(RandomKey key) const {

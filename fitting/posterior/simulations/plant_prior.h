@@ -18,6 +18,9 @@ struct PlantDraw {
   Seed seed = 0;  ///< of the plant's own random numbers
 };
 
+/// The nearest value that the row may have where it counts in whole numbers.
+double whole_where_it_must(const ParameterInfo& row, double value);
+
 class PlantPrior {
  public:
   /// The bundled species of `model`, which is not owned. Throws InputError where it has fewer than two.

@@ -22,6 +22,11 @@ TEST(PosteriorCommand, PrintsQuantitiesWithIntervals) {
        {"crown_volume", "leaf_area", "wood_volume", "trunk_radius", "near species: ", "parameters: "})
     EXPECT_THAT(good.out, HasSubstr(name));
   EXPECT_TRUE(fs::exists(out + "/parameters.svg"));
+  const std::string another = std::string(ESPALIER_SOURCE_DIR) + "/targets/oc_palm.png";
+  const ProgramRun lost =
+      run_espalier("posterior '" + another + "' --simulations 2000 --height 8 --out " + out);
+  EXPECT_EQ(lost.exit_code, 2);
+  EXPECT_THAT(lost.err, HasSubstr("got the posterior of another picture"));
 }
 
 TEST(PosteriorCommand, BadInputIsOneLineAndLeavesNothing) {
@@ -32,7 +37,8 @@ TEST(PosteriorCommand, BadInputIsOneLineAndLeavesNothing) {
   for (const std::string& arguments :
        {"'" + picture + "' --simulations 100", "'" + picture + "' --height 0",
         "'" + picture + "' --height nan", std::string("nothing.png"),
-        "'" + picture + "' --table '" + picture + "'", "'" + picture + "' --samples 0"}) {
+        "'" + picture + "' --table '" + picture + "'", "'" + picture + "' --samples 0",
+        "'" + picture + "' --table '" + (folder / "none" / "t.bin").string() + "'"}) {
     const ProgramRun run = run_espalier("posterior " + arguments + " --out " + out);
     EXPECT_EQ(run.exit_code, 2) << arguments;
     EXPECT_THAT(run.err, testing::MatchesRegex("espalier: [^\n]+\n")) << arguments;

@@ -37,8 +37,6 @@ TEST(NormalScores, NeverLeadBeyondTheValues) {
   EXPECT_EQ(scores.value(-9), 1);
   EXPECT_NEAR(scores.value(normal_quantile(2.0 / 3)), 3.5, 1e-9);
   EXPECT_NEAR(scores.score(100), normal_quantile(2.5 / 3), 1e-12);
-  EXPECT_TRUE(NormalScores(std::vector<double>{3, 3}).is_constant());
-  EXPECT_FALSE(scores.is_constant());
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <espalier/fitting/posterior/simulations/reference_table.h>
 #include <espalier/models/models.h>
 
+#include "support/prior_silhouettes.h"
 #include "support/temporary_folders.h"
 
 namespace espalier {
@@ -36,13 +37,7 @@ PosteriorRequest small_request() {
 
 bool always(std::size_t, std::size_t) { return true; }
 
-Mask tree_of(std::uint64_t i) {
-  static const PlantPrior prior(model_by_name("weber_penn"));
-  PlantSimulator simulator(prior, 10);
-  Simulation simulation;
-  while (!simulator.simulate(prior.draw(child_key(root_key(77), i)), simulation)) i += 1000;
-  return simulator.silhouette();
-}
+Mask tree_of(std::uint64_t i) { return silhouette_of_prior(77, i); }
 
 Mask square() {
   Mask mask(200, 200);

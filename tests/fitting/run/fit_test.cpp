@@ -12,6 +12,7 @@
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 
+#include "support/small_fits.h"
 #include "support/temporary_folders.h"
 
 namespace espalier {
@@ -21,15 +22,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 /// A palm at 32×32 pixels, `evaluations` of them, two of which are start points.
-FitRecord small_record(long evaluations) {
-  FitRecord record;
-  record.views = {{fs::path(ESPALIER_SOURCE_DIR) / "targets/oc_palm.png", {}}};
-  record.target.size_px = 32;
-  record.budget = {evaluations, 0, 0};
-  record.growth = {300, 3'000};
-  record.start = "palm";
-  return record;
-}
+FitRecord small_record(long evaluations) { return small_palm_fit(evaluations); }
 
 fs::path new_run(const std::string& name) { return fresh_folder(name) / "run"; }
 

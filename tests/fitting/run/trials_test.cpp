@@ -17,6 +17,7 @@
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/models/models.h>
 
+#include "support/small_fits.h"
 #include "support/temporary_folders.h"
 
 namespace espalier {
@@ -27,12 +28,7 @@ using testing::HasSubstr;
 
 /// A palm at 32×32 pixels, first in the species space, then by its parameters.
 FitRecord record_with_trials(long evaluations) {
-  FitRecord record;
-  record.views = {{fs::path(ESPALIER_SOURCE_DIR) / "targets/oc_palm.png", {}}};
-  record.target.size_px = 32;
-  record.budget = {evaluations, 0, 0};
-  record.growth = {300, 3'000};
-  record.start = "palm";
+  FitRecord record = small_palm_fit(evaluations);
   record.space = "species:2";
   record.space_evaluations = 30;
   return record;

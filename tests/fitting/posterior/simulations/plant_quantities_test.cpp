@@ -9,6 +9,8 @@
 #include <espalier/fitting/posterior/simulations/plant_quantities.h>
 #include <espalier/plant/leaf_outlines.h>
 
+#include "support/hand_made_plants.h"
+
 namespace espalier {
 namespace {
 
@@ -17,15 +19,9 @@ constexpr double kPi = std::numbers::pi;
 /// A straight trunk along z that narrows from 0.3 to 0.1 m over 10 m.
 Plant trunk() {
   Plant plant;
-  plant.stems.first_knot = {0, 2};
-  plant.stems.parent = {-1};
-  plant.stems.level = {0};
-  plant.stems.path_key = {1};
-  plant.stems.origin = {-1};
-  plant.stems.child_index = {0};
-  plant.knots.point_m = {{0, 0, 0}, {0, 0, 10}};
-  plant.knots.handle_in_m = plant.knots.handle_out_m = plant.knots.point_m;
-  plant.knots.radius_m = {0.3f, 0.1f};
+  const Vec3 points[] = {{0, 0, 0}, {0, 0, 10}};
+  const float radii[] = {0.3f, 0.1f};
+  add_stem(plant, points, radii);
   return plant;
 }
 
@@ -36,14 +32,10 @@ Plant tree(Vec3 middle = {0, 0, 0}) {
     for (int ring = 0; ring < 5; ++ring)
       for (int turn = 0; turn < 64; ++turn) {
         const double angle = 2 * kPi * (turn + 0.5) / 64, radius = 0.5 * ring;
-        plant.leaves.position_m.push_back(middle + Vec3{static_cast<float>(radius * std::cos(angle)),
-                                                        static_cast<float>(radius * std::sin(angle)),
-                                                        4 + 0.1f * (static_cast<float>(level) + 0.5f)});
-        plant.leaves.axis.push_back({0, 0, 1});
-        plant.leaves.side.push_back({1, 0, 0});
-        plant.leaves.length_m.push_back(0.1f);
-        plant.leaves.width_m.push_back(0.05f);
-        plant.leaves.kind.push_back(LeafKind::leaf);
+        const Vec3 on_ring{static_cast<float>(radius * std::cos(angle)),
+                           static_cast<float>(radius * std::sin(angle)),
+                           4 + 0.1f * (static_cast<float>(level) + 0.5f)};
+        add_leaf(plant, middle + on_ring, {0, 0, 1}, {1, 0, 0}, 0.1f, 0.05f);
       }
   return plant;
 }

@@ -12,6 +12,8 @@
 #include <espalier/image/reading/read_target.h>
 #include <espalier/models/models.h>
 
+#include "support/prior_silhouettes.h"
+
 namespace espalier {
 namespace {
 
@@ -39,13 +41,7 @@ Mask mirrored(const Mask& mask) {
   return result;
 }
 
-Mask plant_mask(std::uint64_t i) {
-  static const PlantPrior prior(model_by_name("weber_penn"));
-  PlantSimulator simulator(prior, 10);
-  Simulation simulation;
-  while (!simulator.simulate(prior.draw(child_key(root_key(5), i)), simulation)) i += 1000;
-  return simulator.silhouette();
-}
+Mask plant_mask(std::uint64_t i) { return silhouette_of_prior(5, i); }
 
 TEST(SilhouetteSummaries, HaveEachANameOfItsOwn) {
   const std::set<std::string> names(summary_names().begin(), summary_names().end());
