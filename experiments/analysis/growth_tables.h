@@ -8,8 +8,8 @@
 
 namespace espalier {
 
-/// Tables by file name: growth_times.csv, growth_complexity.csv, growth_fit.csv. Throws InputError for files
-/// that are missing or broken.
+/// Tables by file name: growth_times.csv, growth_complexity.csv, growth_medians.csv, growth_fit.csv and,
+/// where L-systems grew, growth_lsystems.csv. Throws InputError for files that are missing or broken.
 std::map<std::string, CsvTable> growth_tables(const std::filesystem::path& directory);
 
 }  // namespace espalier

@@ -68,7 +68,12 @@ std::string title_of(const std::string& file) {
       {"results.csv", "All runs"},
       {"plants.csv", "Plants: wood that shows, depth, leaves, numbers of overrides"},
       {"sides.csv", "The side that no picture shows: fits beside trees of the true parameters"},
-      {"growth_fit.csv", "Exponents: seconds = factor · size^exponent"},
+      {"growth_fit.csv",
+       "Exponents: seconds = factor · size^exponent; the error is of as many independent trees as there are "
+       "species"},
+      {"growth_lsystems.csv",
+       "Exponents within each L-system: seconds of the interpretation over points of the stems' curves"},
+      {"growth_medians.csv", "Milliseconds of a tree: the quartiles of the whole, the medians of the phases"},
       {"growth_complexity.csv", "Points of the stems' curves"}};
   const auto found = titles.find(file);
   return found == titles.end() ? title_by_measure(file) : found->second;

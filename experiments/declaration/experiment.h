@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <espalier/fitting/record/fit_record.h>
+#include <espalier/render/camera.h>
 
 namespace espalier {
 
@@ -61,22 +62,36 @@ struct FitsDeclaration {
 struct PictureChange {
   std::string label;
   std::string species;                ///< empty: that of the sheet
+  std::string model;                  ///< an L-system instead of a species
   std::string blend_with;             ///< another species, empty for none
   double t = 0.5;                     ///< how far towards it
   std::map<std::string, double> set;  ///< parameters
   std::string prune_to;               ///< a volume [environment/volume.h], empty for none
+  std::vector<std::string> objects;   ///< that stand beside the tree [environment/scene_object.h]
+  std::string season;                 ///< of the picture [render/shading/seasons.h], empty: as the tree grows
 };
 
 struct PicturesDeclaration {
   std::string species;
+  std::string model;  ///< an L-system instead of a species: one of them is empty
   Seed seed = 1;
   int size_px = 320;
-  double frame_m = 0;  ///< side of each picture, the tree's foot near its bottom; 0: framed one by one
+  double frame_m = 0;   ///< side of each picture, the tree's foot near its bottom; 0: framed one by one
+  View view;            ///< where all pictures are taken from
+  bool ground = false;  ///< a lawn
+  std::vector<std::string> objects;  ///< that stand in all pictures
   std::vector<PictureChange> rows = {PictureChange{}}, columns = {PictureChange{}};
+};
+
+/// An L-system whose trees are grown beside those of the species.
+struct GrownLsystem {
+  std::string label;  ///< of the tree that it grows, in tables: "quaking_aspen"
+  std::string model;
 };
 
 struct GrowthDeclaration {
   std::vector<std::string> species;
+  std::vector<GrownLsystem> models;
   int seeds = 100;
 };
 

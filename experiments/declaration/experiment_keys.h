@@ -39,6 +39,7 @@ const std::vector<KeyDescription>& target_keys();
 const std::vector<KeyDescription>& optimizer_keys();  ///< besides the settings of the method
 const std::vector<KeyDescription>& space_keys();
 const std::vector<KeyDescription>& change_keys();  ///< rows and columns of a sheet
+const std::vector<KeyDescription>& grown_model_keys();
 
 std::vector<std::string> names_of(const std::vector<KeyDescription>& keys);
 

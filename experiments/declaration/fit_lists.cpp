@@ -325,6 +325,14 @@ std::string find_model(const TomlSection& section, const std::string& name) {
   return fs::is_regular_file(found, error) ? fs::absolute(found).string() : name;
 }
 
+std::string find_lsystem(const TomlSection& section, std::string_view key, const std::string& name) {
+  std::string file = name;
+  if (!file.ends_with(".lsys")) file += ".lsys";
+  const std::string found = find_model(section, file);
+  located(section, key, [&] { return &model_by_name(found); });
+  return found;
+}
+
 SpaceDeclaration usual_space(const TomlSection& fits, const FitRecord& shared) {
   const toml::value<std::string> name("default");
   return read_space(fits, Element(fits, "spaces", name, "label"), shared);

@@ -33,6 +33,10 @@ View parse_angles(const TomlSection& section, std::string_view key, const std::s
 /// bundled one, or of another model.
 std::string find_model(const TomlSection& section, const std::string& name);
 
+/// An L-system by its file, found as find_model does, or a bundled one also without ".lsys". Throws
+/// InputError with the place of `key` where there is none.
+std::string find_lsystem(const TomlSection& section, std::string_view key, const std::string& name);
+
 /// The space of an experiment that names none. `fits` says whether it names a growth budget.
 SpaceDeclaration usual_space(const TomlSection& fits, const FitRecord& shared);
 

@@ -39,7 +39,8 @@ std::string experiment_keys_as_markdown() {
          table_of("A target", target_keys()) +
          table_of("An optimiser, besides the [settings](optimizers.md) of its method", optimizer_keys()) +
          table_of("A space", space_keys()) + table_of("`[pictures]`", pictures_keys()) +
-         table_of("A row or a column of pictures", change_keys()) + table_of("`[growth]`", growth_keys());
+         table_of("A row or a column of pictures", change_keys()) + table_of("`[growth]`", growth_keys()) +
+         table_of("An L-system of `[growth]`", grown_model_keys());
 }
 
 }  // namespace espalier

@@ -25,9 +25,12 @@ CAPTIONS = {
                     "lie between the median fitness of the first evaluations and the best that any run reached.",
     "ranks": "Mean ranks over the targets, by {measure}. Methods that a vertical bar joins do not differ significantly "
              "(Nemenyi's test at the level in the table).",
-    "growth_times": "Time to grow one tree, by species: a mark a tree.",
-    "growth_size": "Time to grow against size, all trees, with the fitted power law.",
-    "growth_complexity": "Knots of the stems by species.",
+    "growth_times": "Time to grow one tree, by species and phase: a mark a tree.",
+    "growth_size": "Time to grow against size, all trees of species, with the fitted power law; its error is that of as "
+                   "many independent species, not trees.",
+    "growth_lsystems": "Time to interpret the string of an L-system against the size of the plant, with the exponent "
+                       "within its trees.",
+    "growth_complexity": "Knots of the stems by species; those of L-systems are purple.",
 }
 
 STYLE = """

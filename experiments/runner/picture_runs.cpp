@@ -3,13 +3,15 @@
 #include <memory>
 
 #include <espalier/core/error.h>
+#include <espalier/environment/scene_object.h>
 #include <espalier/environment/volume.h>
+#include <espalier/experiments/declaration/picture_changes.h>
 #include <espalier/experiments/runner/picture_runs.h>
 #include <espalier/fitting/species_space/blend.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
-#include <espalier/render/shading/shaded.h>
+#include <espalier/render/shading/seasons.h>
 
 namespace espalier {
 
@@ -17,23 +19,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A row's and a column's changes together; the column's win.
-PictureChange merged(const PictureChange& row, const PictureChange& column) {
-  PictureChange change = row;
-  for (const auto& [name, value] : column.set) change.set[name] = value;
-  if (!column.species.empty()) change.species = column.species;
-  if (!column.blend_with.empty()) change.blend_with = column.blend_with, change.t = column.t;
-  if (!column.prune_to.empty()) change.prune_to = column.prune_to;
-  return change;
-}
-
 /// Towards another species, in the encoding in which what lies between means something.
 void blend_into(const Model& model, const Preset& other, double t, ParameterValues& values) {
   values = blend(model, *make_encoding("monotone", model.table()), values, other.values, t);
 }
 
 Plant grow(const PicturesDeclaration& pictures, const PictureChange& change) {
-  Preset preset = load_preset(change.species.empty() ? pictures.species : change.species);
+  Preset preset = grown_in(pictures, change);
   const Model& model = model_by_name(preset.model);
   if (!change.blend_with.empty()) blend_into(model, load_preset(change.blend_with), change.t, preset.values);
   for (const auto& [name, value] : change.set) preset.values[model.table().index_of(name)] = value;
@@ -46,18 +38,30 @@ Plant grow(const PicturesDeclaration& pictures, const PictureChange& change) {
   return plant;
 }
 
-/// The whole plant, or a frame of a fixed size whose foot is a twentieth above the bottom edge.
-Camera camera_for(const PicturesDeclaration& pictures, const Plant& plant) {
+SceneObjects objects_in(const PicturesDeclaration& pictures, const PictureChange& change) {
+  SceneObjects objects;
+  for (const std::string& text : pictures.objects) add_object(text, objects);
+  for (const std::string& text : change.objects) add_object(text, objects);
+  return objects;
+}
+
+/// The whole scene, or a frame of a fixed size whose foot is a twentieth above the bottom edge.
+Camera camera_for(const PicturesDeclaration& pictures, const Bounds& scene) {
   const int size = pictures.size_px;
-  if (pictures.frame_m == 0) return frame_bounds(bounds(plant), {}, size, size);
-  return frame_base({}, {}, static_cast<float>(pictures.frame_m / size), size, size,
+  if (pictures.frame_m == 0) return frame_bounds(scene, pictures.view, size, size);
+  return frame_base({}, pictures.view, static_cast<float>(pictures.frame_m / size), size, size,
                     0.95f * static_cast<float>(size));
 }
 
 Measured draw(const PicturesDeclaration& pictures, const PictureChange& change, const fs::path& directory) {
-  const Plant plant = grow(pictures, change);
+  Plant plant = grow(pictures, change);
+  const SceneObjects objects = objects_in(pictures, change);
+  ShadedSettings shading;
+  shading.ground = pictures.ground;
+  if (!change.season.empty()) apply_season(change.season, plant, shading);
+  const Camera camera = camera_for(pictures, bounds(plant, objects));
   fs::create_directories(directory);
-  write_png(directory / "picture.png", render_shaded(plant, camera_for(pictures, plant)));
+  write_png(directory / "picture.png", render_shaded(plant, camera, shading, objects));
   return {
       {{"stems", fmt::format("{}", plant.stems.size())}, {"leaves", fmt::format("{}", plant.leaves.size())}},
       {}};

@@ -3,21 +3,26 @@
 import matplotlib.pyplot as plt
 
 import style
-from read import number, read_table
+from plots.growth_times import is_lsystem, tree_name
+from read import grouped, number, read_table
 
-COLUMNS = {"species": str, "min": number, "q25": number, "median": number, "q75": number, "max": number}
+COLUMNS = {"species": str, "model": str, "min": number, "q25": number, "median": number, "q75": number, "max": number}
+NUMBERS = ["min", "q25", "median", "q75", "max"]
 
 
 def draw(directory, meta):
-    rows = read_table(directory / "growth_complexity.csv", COLUMNS)
-    rows = [row for row in rows or [] if all(row[name] is not None for name in COLUMNS)]
+    rows = read_table(directory / "growth_complexity.csv", COLUMNS, ["model"])
+    rows = [row for row in rows or [] if all(row[name] is not None for name in NUMBERS)]
     if not rows:
         return {}
-    rows.sort(key=lambda row: row["median"])
+    largest = {species: max(row["median"] for row in of) for species, of in grouped(rows, "species").items()}
+    rows.sort(key=lambda row: (largest[row["species"]], row["species"], is_lsystem(row["model"])))
     figure, axes = plt.subplots(figsize=(7, 0.3 * len(rows) + 1.2))
-    axes.bxp([box(row) for row in rows], vert=False, showfliers=False, widths=0.6, patch_artist=True,
-             boxprops={"facecolor": style.SKY, "linewidth": 0.8}, medianprops={"color": style.BLACK},
-             whiskerprops={"linewidth": 0.8}, capprops={"linewidth": 0.8})
+    boxes = axes.bxp([box(row) for row in rows], vert=False, showfliers=False, widths=0.6, patch_artist=True,
+                     boxprops={"facecolor": style.SKY, "linewidth": 0.8}, medianprops={"color": style.BLACK},
+                     whiskerprops={"linewidth": 0.8}, capprops={"linewidth": 0.8})
+    for patch, row in zip(boxes["boxes"], rows):
+        patch.set_facecolor(style.PURPLE if is_lsystem(row["model"]) else style.SKY)
     axes.invert_yaxis()
     style.log_axis(axes.xaxis)
     axes.set_xlabel("knots of the stems")
@@ -26,5 +31,5 @@ def draw(directory, meta):
 
 
 def box(row):
-    return {"label": row["species"], "whislo": row["min"], "q1": row["q25"], "med": row["median"], "q3": row["q75"],
-            "whishi": row["max"]}
+    return {"label": tree_name(row["species"], row["model"]), "whislo": row["min"], "q1": row["q25"],
+            "med": row["median"], "q3": row["q75"], "whishi": row["max"]}

@@ -1,8 +1,15 @@
-"""A sheet of pictures: rows × columns with their labels, as the dissertation's plates of effects (Fig. 3.2 to 3.9)."""
+"""A sheet of pictures: rows × columns with their labels, as the dissertation's plates of effects (Fig. 3.2 to 3.9). A
+single row of many pictures goes on in further lines, as its plates of trees (appendix A)."""
+
+import textwrap
 
 import matplotlib.pyplot as plt
 
 from read import ReportError
+
+MOST_ACROSS = 8  # pictures beside each other, of a single row
+SMALLEST, LARGEST = 1.9, 3.4  # inches of a picture's side
+LABEL_WIDTH = 21  # letters above a picture
 
 
 def draw(directory, meta):
@@ -10,16 +17,39 @@ def draw(directory, meta):
     if not sheet or not sheet.get("cells"):
         return {}
     check(directory, sheet)
+    if len(sheet["rows"]) == 1 and len(sheet["columns"]) > MOST_ACROSS:
+        return {"sheet": draw_lines(directory, sheet["columns"], sheet["cells"][0])}
+    return {"sheet": draw_grid(directory, sheet)}
+
+
+def draw_grid(directory, sheet):
     rows, columns = len(sheet["rows"]), len(sheet["columns"])
-    figure, axes = plt.subplots(rows, columns, figsize=(1.9 * columns, 1.9 * rows), squeeze=False,
+    side = max(SMALLEST, min(LARGEST, 10.2 / columns))
+    figure, axes = plt.subplots(rows, columns, figsize=(side * columns, side * rows), squeeze=False,
                                 gridspec_kw={"wspace": 0.04, "hspace": 0.04})
     for i, label in enumerate(sheet["rows"]):
         axes[i][0].set_ylabel(label, fontsize=9)
         for j in range(columns):
             draw_cell(axes[i][j], directory, sheet["cells"][i][j])
     for j, label in enumerate(sheet["columns"]):
-        axes[0][j].set_title(label, fontsize=9)
-    return {"sheet": figure}
+        label_above(axes[0][j], label)
+    return figure
+
+
+def draw_lines(directory, labels, cells):
+    """Lines of the same length, but for the last one, each picture below its label."""
+    lines = -(-len(cells) // MOST_ACROSS)
+    across = -(-len(cells) // lines)
+    figure, axes = plt.subplots(lines, across, figsize=(SMALLEST * across, 1.18 * SMALLEST * lines), squeeze=False,
+                                gridspec_kw={"wspace": 0.04, "hspace": 0.22})
+    for i, place in enumerate(axes.flat):
+        draw_cell(place, directory, cells[i] if i < len(cells) else "")
+        label_above(place, labels[i] if i < len(cells) else "")
+    return figure
+
+
+def label_above(axes, label):
+    axes.set_title(textwrap.fill(label, LABEL_WIDTH), fontsize=9)
 
 
 def check(directory, sheet):

@@ -85,9 +85,11 @@ PictureSize parse_size(const std::string& text) {
   return {*width, *height};
 }
 
-Camera camera_of(const ViewOptions& options, const Plant& plant) {
+Camera camera_of(const ViewOptions& options, const Plant& plant) { return camera_of(options, bounds(plant)); }
+
+Camera camera_of(const ViewOptions& options, const Bounds& box) {
   const PictureSize size = parse_size(options.size);
-  return frame_bounds(bounds(plant), checked_view(options), size.width_px, size.height_px);
+  return frame_bounds(box, checked_view(options), size.width_px, size.height_px);
 }
 
 void check_view(const ViewOptions& options) {

@@ -32,8 +32,9 @@ struct PictureSize {
 /// Throws InputError naming the option, what it got and what was expected.
 PictureSize parse_size(const std::string& text);
 
-/// The camera that frames `plant` with a margin of 8 %. Throws InputError as parse_size does.
+/// The camera that frames the plant, or the box, with a margin of 8 %. Throws InputError as parse_size does.
 Camera camera_of(const ViewOptions& options, const Plant& plant);
+Camera camera_of(const ViewOptions& options, const Bounds& box);
 
 /// Throws InputError unless the options make a camera: to be called before anything costly is done.
 void check_view(const ViewOptions& options);

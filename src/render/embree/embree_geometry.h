@@ -1,6 +1,6 @@
-// The three kinds of geometry in a plant's Embree scene, as arrays that Embree reads in place:
-// cones or round Bézier curves for stems, flat polygons for leaves (user geometry: a triangulated leaf
-// would be five to twelve primitives), triangles for blossoms. Metres.
+// The kinds of geometry in a plant's Embree scene, as arrays that Embree reads in place: cones or round
+// Bézier curves for stems, flat polygons for leaves (user geometry: a triangulated leaf would be five to
+// twelve primitives), triangles for blossoms and for what stands beside the plant. Metres.
 // Segments and leaves without a finite, positive size are left out. Each struct is filled anew by
 // collect(), keeps its memory, and must outlive the commit and the rays of the geometry it is set on.
 #pragma once
@@ -13,6 +13,7 @@
 
 #include <espalier/plant/leaf_half.h>
 #include <espalier/plant/plant.h>
+#include <espalier/render/scene_objects.h>
 
 namespace espalier {
 
@@ -62,6 +63,15 @@ struct BlossomTriangles {
   std::vector<std::array<float, 4>> vertices;  ///< the fourth number pads to 16 bytes
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint32_t> leaf;  ///< index in Plant::leaves of each triangle
+};
+
+struct ObjectTriangles {
+  void collect(const SceneObjects& objects);
+  void set_on(RTCGeometry geometry) const;
+  std::size_t size() const { return triangles.size(); }
+
+  std::vector<std::array<float, 4>> vertices;  ///< the fourth number pads to 16 bytes
+  std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
 }  // namespace espalier

@@ -97,10 +97,10 @@ float stem_tolerance_m(const Plant& plant, const Camera& camera) {
 EmbreeScene::EmbreeScene(SceneQuality quality, StemSurface surface)
     : device_(new_device()), scene_(rtcNewScene(device_)), surface_(surface) {
   rtcSetSceneBuildQuality(scene_, build_quality(quality));
-  const std::array<RTCGeometryType, 3> types{surface == StemSurface::cones
-                                                 ? RTC_GEOMETRY_TYPE_CONE_LINEAR_CURVE
-                                                 : RTC_GEOMETRY_TYPE_ROUND_BEZIER_CURVE,
-                                             RTC_GEOMETRY_TYPE_USER, RTC_GEOMETRY_TYPE_TRIANGLE};
+  const std::array<RTCGeometryType, 4> types{
+      surface == StemSurface::cones ? RTC_GEOMETRY_TYPE_CONE_LINEAR_CURVE
+                                    : RTC_GEOMETRY_TYPE_ROUND_BEZIER_CURVE,
+      RTC_GEOMETRY_TYPE_USER, RTC_GEOMETRY_TYPE_TRIANGLE, RTC_GEOMETRY_TYPE_TRIANGLE};
   for (unsigned part = 0; part < types.size(); ++part) {
     geometries_[part] = rtcNewGeometry(device_, types[part]);
     rtcSetGeometryBuildQuality(geometries_[part], build_quality(quality));
@@ -115,13 +115,15 @@ EmbreeScene::~EmbreeScene() {
   rtcReleaseDevice(device_);
 }
 
-void EmbreeScene::build(const Plant& plant, float tolerance_m) {
+void EmbreeScene::build(const Plant& plant, float tolerance_m, const SceneObjects& objects) {
   stems_.collect(plant, surface_, tolerance_m);
   leaves_.collect(plant);
   blossoms_.collect(plant);
+  objects_.collect(objects);
   update(geometries_[kStemPart], stems_);
   update(geometries_[kLeafPart], leaves_);
   update(geometries_[kBlossomPart], blossoms_);
+  update(geometries_[kObjectPart], objects_);
   rtcCommitScene(scene_);
   check(device_);
   box_m_ = scene_box(scene_);

@@ -18,7 +18,7 @@ namespace espalier {
 enum class SceneQuality { fast_build, fast_trace };
 
 /// What a ray hits: Embree's geomID.
-enum GeometryId : unsigned { kStemPart = 0, kLeafPart = 1, kBlossomPart = 2 };
+enum GeometryId : unsigned { kStemPart = 0, kLeafPart = 1, kBlossomPart = 2, kObjectPart = 3 };
 
 /// How closely a picture by `camera` needs stems to be followed: an eighth of a pixel where the plant is
 /// nearest.
@@ -36,8 +36,8 @@ class EmbreeScene {
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
   /// Replaces the contents. Cones keep within `tolerance_m` (> 0) of the stems' curves.
-  /// The plant is copied: it may change or vanish afterwards.
-  void build(const Plant& plant, float tolerance_m);
+  /// The plant and what stands beside it are copied: they may change or vanish afterwards.
+  void build(const Plant& plant, float tolerance_m, const SceneObjects& objects = {});
 
   /// Sets the pixels whose centre's ray meets the scene. `mask` gets the camera's size.
   void trace(const Camera& camera, Mask& mask) const;
@@ -53,11 +53,12 @@ class EmbreeScene {
  private:
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
-  std::array<RTCGeometry, 3> geometries_{};
+  std::array<RTCGeometry, 4> geometries_{};
   StemSurface surface_;
   StemSegments stems_;
   LeafPolygons leaves_;
   BlossomTriangles blossoms_;
+  ObjectTriangles objects_;
   Bounds box_m_;
 };
 

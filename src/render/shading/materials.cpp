@@ -1,4 +1,4 @@
-// Colours of bark, leaves, blossoms and ground. Metres; colours are linear RGB.
+// Colours of bark, leaves, blossoms, objects and ground. Metres; colours are linear RGB.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -90,7 +90,7 @@ Surface SurfaceFinder::leaf_surface(std::uint32_t leaf, bool is_blossom) const {
   return {{}, {}, tinted(settings_.leaf), tinted(settings_.leaf_through)};
 }
 
-Surface SurfaceFinder::plant_surface(const Ray& ray, const RTCRayHit& hit) const {
+Surface SurfaceFinder::scene_surface(const Ray& ray, const RTCRayHit& hit) const {
   const Vec3 point = ray.origin_m + ray.direction * hit.ray.tfar;
   const Vec3 normal = normalized({hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z}, -ray.direction);
   const unsigned primitive = hit.hit.primID;
@@ -99,6 +99,8 @@ Surface SurfaceFinder::plant_surface(const Ray& ray, const RTCRayHit& hit) const
     surface = stem_surface(point, primitive);
   else if (hit.hit.geomID == kLeafPart)
     surface = leaf_surface(scene_.leaves().leaf[primitive], false);
+  else if (hit.hit.geomID == kObjectPart)
+    surface.reflected = settings_.object;
   else
     surface = leaf_surface(scene_.blossoms().leaf[primitive], true);
   surface.point_m = point;
@@ -125,7 +127,7 @@ std::optional<Surface> SurfaceFinder::first_hit(const Ray& ray) const {
   rtcIntersect1(scene_.handle(), &context, &hit);
   if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return ground_hit(ray);
   const std::optional<Surface> ground = ground_hit(ray);
-  const Surface surface = plant_surface(ray, hit);
+  const Surface surface = scene_surface(ray, hit);
   const bool is_below_ground = ground && ground->opacity == 1 && surface.point_m.z < 0;
   return is_below_ground ? ground : surface;
 }

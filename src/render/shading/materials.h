@@ -1,5 +1,5 @@
-// What a ray sees where it meets a plant or the ground: position, normal towards the viewer, colours.
-// Metres; colours are linear RGB.
+// What a ray sees where it meets a plant, what stands beside it or the ground: position, normal towards the
+// viewer, colours. Metres; colours are linear RGB.
 #pragma once
 #include <optional>
 
@@ -16,7 +16,7 @@ struct Surface {
   float opacity = 1;      ///< below 1 where the ground fades into the background
 };
 
-/// The plant's surfaces and the ground, with their colours.
+/// The surfaces of the scene and the ground, with their colours.
 class SurfaceFinder {
  public:
   SurfaceFinder(const Plant& plant, const EmbreeScene& scene, const ShadedSettings& settings);
@@ -24,11 +24,11 @@ class SurfaceFinder {
   /// The first surface along the ray, or none.
   std::optional<Surface> first_hit(const Ray& ray) const;
 
-  /// True where anything of the plant lies in this direction, seen from a little above the surface.
+  /// True where anything of the scene lies in this direction, seen from a little above the surface.
   bool is_shadowed(const Surface& surface, Vec3 direction) const;
 
  private:
-  Surface plant_surface(const Ray& ray, const RTCRayHit& hit) const;
+  Surface scene_surface(const Ray& ray, const RTCRayHit& hit) const;
   Surface stem_surface(Vec3 point, unsigned primitive) const;
   Surface leaf_surface(std::uint32_t leaf, bool is_blossom) const;
   std::optional<Surface> ground_hit(const Ray& ray) const;
@@ -36,7 +36,7 @@ class SurfaceFinder {
   const Plant& plant_;
   const EmbreeScene& scene_;
   const ShadedSettings& settings_;
-  float size_m_;        ///< diagonal of the plant's box
+  float size_m_;        ///< diagonal of the scene's box
   float bark_scale_m_;  ///< width of the ridges of bark
 };
 

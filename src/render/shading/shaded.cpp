@@ -120,10 +120,11 @@ bool contains(const PixelRectangle& rectangle, int x, int y) {
 
 }  // namespace
 
-Picture render_shaded(const Plant& plant, const Camera& camera, const ShadedSettings& settings) {
+Picture render_shaded(const Plant& plant, const Camera& camera, const ShadedSettings& settings,
+                      const SceneObjects& objects) {
   ESPALIER_CHECK_EQ(settings.samples_per_px >= 1 && settings.samples_per_px <= 1024, true);
   EmbreeScene scene(SceneQuality::fast_trace);
-  scene.build(plant, stem_tolerance_m(plant, camera));
+  scene.build(plant, stem_tolerance_m(plant, camera), objects);
   const SurfaceFinder surfaces(plant, scene, settings);
   const Camera traced = moved_before(camera, drawn_box(scene.box_m(), settings));
   const Shader shader{surfaces, settings, sun_direction(camera, settings)};

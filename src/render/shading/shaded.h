@@ -1,11 +1,13 @@
 // Shaded pictures of plants: sun with soft shadows, sky light with ambient occlusion, bark, leaves that let
-// light through, blossoms, optional ground. Direct light only: what the sky cannot reach gets a constant.
-// Colours are linear RGB (a Vec3 of red, green, blue; 1 is white); pictures are sRGB.
+// light through, blossoms, what stands beside the plant, optional ground. Direct light only: what the sky
+// cannot reach gets a constant. Colours are linear RGB (a Vec3 of red, green, blue; 1 is white); pictures are
+// sRGB.
 #pragma once
 #include <espalier/core/vec3.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/plant/plant.h>
 #include <espalier/render/camera.h>
+#include <espalier/render/scene_objects.h>
 
 namespace espalier {
 
@@ -21,10 +23,13 @@ struct ShadedSettings {
   LinearRgb leaf{0.075f, 0.15f, 0.035f}, leaf_through{0.10f, 0.19f, 0.025f};
   LinearRgb blossom{0.80f, 0.55f, 0.62f};
   LinearRgb lawn{0.13f, 0.17f, 0.06f};
+  LinearRgb object{0.42f, 0.33f, 0.25f};  ///< of houses and walls
   LinearRgb background_top{0.72f, 0.84f, 0.97f}, background_bottom{1, 1, 1};
 };
 
-/// Renders `plant` as `camera` sees it. Rows run in parallel; the same bits for any number of threads.
-Picture render_shaded(const Plant& plant, const Camera& camera, const ShadedSettings& settings = {});
+/// Renders `plant` as `camera` sees it, with what stands beside it. Rows run in parallel; the same bits for
+/// any number of threads.
+Picture render_shaded(const Plant& plant, const Camera& camera, const ShadedSettings& settings = {},
+                      const SceneObjects& objects = {});
 
 }  // namespace espalier
