@@ -121,7 +121,9 @@ const std::vector<KeyDescription>& change_keys() {
 
 PicturesDeclaration read_pictures(const TomlSection& pictures) {
   pictures.expect_only(names_of(pictures_keys()));
-  if (!pictures.has("model")) pictures.text("species");  // which says that one must be given
+  if (!pictures.has("model") && !pictures.has("species"))
+    throw_input_error("{}: species: got nothing, expected a preset, or an L-system as model",
+                      toml_location(pictures.source, pictures.table));
   PicturesDeclaration declaration;
   read_keys(pictures, pictures_keys(), declaration);
   check_together(pictures, declaration);

@@ -14,7 +14,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-std::string error_of(const std::string& text) {
+std::string object_error(const std::string& text) {
   SceneObjects objects;
   try {
     add_object(text, objects);
@@ -42,8 +42,9 @@ TEST(SceneObject, WhatIsNoClosedMeshIsRefused) {
   const auto folder = fresh_folder("scene_bad");
   write_box_obj(folder / "open.obj", {0, 0, 0}, {1, 1, 1}, false);
   for (const std::string text : {"ball:0,0,0,1", "house.obj", "", "mesh:none.obj", "mesh:house.txt"})
-    EXPECT_THAT(error_of(text), AllOf(HasSubstr("got '" + text + "'"), HasSubstr(", expected mesh:FILE")));
-  EXPECT_THAT(error_of("mesh:" + (folder / "open.obj").string()),
+    EXPECT_THAT(object_error(text),
+                AllOf(HasSubstr("got '" + text + "'"), HasSubstr(", expected mesh:FILE")));
+  EXPECT_THAT(object_error("mesh:" + (folder / "open.obj").string()),
               AllOf(HasSubstr("3 of 18 edges are open"), HasSubstr("expected mesh:FILE, a closed mesh")));
 }
 

@@ -13,6 +13,7 @@
 #include <espalier/render/embree/embree_renderer.h>
 #include <espalier/render/silhouette.h>
 
+#include "support/object_files.h"
 #include "support/run_espalier.h"
 
 namespace espalier {
@@ -87,6 +88,29 @@ TEST_F(RenderCommand, RenderWritesAPictureOfTheStatedSize) {
                    path("x.png").string() + "'");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(png_size(read_text_file(path("x.png"))), (std::pair{80, 60}));
+}
+
+TEST_F(RenderCommand, ObjectsAndSeasonsChangeThePicture) {
+  write_box_obj(path("wall.obj"), {1, -1, 0}, {3, 1, 9});
+  const auto picture_of = [&](const std::string& options) {
+    EXPECT_EQ(run_espalier("render palm --size 48 --samples 2 -o '" + path("x.png").string() + "' " + options)
+                  .exit_code,
+              0);
+    return read_text_file(path("x.png"));
+  };
+  const std::string alone = picture_of("");
+  EXPECT_EQ(picture_of("--season summer"), alone);
+  EXPECT_NE(picture_of("--season winter"), alone);
+  EXPECT_NE(picture_of("--object 'mesh:" + path("wall.obj").string() + "'"), alone);
+}
+
+TEST_F(RenderCommand, BadObjectsAndSeasonsAreRefused) {
+  write_box_obj(path("open.obj"), {1, -1, 0}, {3, 1, 9}, false);
+  const std::string open = "mesh:" + path("open.obj").string();
+  expect_refused("render palm --object mesh:none.obj", "--object: got 'mesh:none.obj'");
+  expect_refused("render palm --object ball:0,0,0,1", "expected mesh:FILE");
+  expect_refused("render palm --object '" + open + "'", "3 of 18 edges are open");
+  expect_refused("render palm --season monsoon", "--season: got 'monsoon', expected one of: summer");
 }
 
 TEST_F(RenderCommand, AnUnknownSpeciesIsRefusedWithTheClosestName) {

@@ -13,6 +13,7 @@ import os
 import pathlib
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -152,6 +153,31 @@ class Plots(ReportTest):
 
     def test_every_table_of_growth_is_drawn_in_three_formats(self):
         self.expect_plots(self.once_drawn("growth"), {"growth_times", "growth_size", "growth_complexity"})
+
+    def test_growth_of_lsystems_is_drawn_beside_that_of_species(self):
+        directory = synthetic.fresh(self.folder, "growth")
+        synthetic.write_growth(directory, synthetic.SPECIES[:3], 5, lsystems=synthetic.SPECIES[:2])
+        self.drawn(directory)
+        self.expect_plots(directory, {"growth_times", "growth_size", "growth_lsystems", "growth_complexity"})
+        for stem in ["growth_times", "growth_complexity"]:
+            self.assertIn(synthetic.SPECIES[0] + ", L-system", (directory / f"{stem}.svg").read_text(), stem)
+        self.assertIn("exponent 1.30 ± 0.02", (directory / "growth_lsystems.svg").read_text())
+
+    def test_growth_of_lsystems_alone_has_no_sizes_of_species(self):
+        directory = synthetic.fresh(self.folder, "growth")
+        synthetic.write_growth(directory, [], 5, lsystems=synthetic.SPECIES[:2])
+        self.drawn(directory)
+        self.expect_plots(directory, {"growth_times", "growth_lsystems", "growth_complexity"})
+
+    def test_a_long_row_of_pictures_goes_on_in_further_lines(self):
+        directory = synthetic.fresh(self.folder, "pictures")
+        labels = [f"tree {i}" for i in range(21)]
+        synthetic.write_pictures(directory, [""], labels)
+        self.drawn(directory)
+        width, height = struct.unpack(">II", (directory / "sheet.png").read_bytes()[16:24])
+        self.assertLess(width, 3 * height)
+        for label in labels:
+            self.assertIn(f"<!-- {label} -->", (directory / "sheet.svg").read_text())
 
     def test_a_sheet_of_pictures_is_drawn_in_three_formats(self):
         self.expect_plots(self.once_drawn("pictures"), {"sheet"})

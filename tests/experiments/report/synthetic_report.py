@@ -165,7 +165,7 @@ def write_generations(report, targets, rng):
     write_csv(report / "generations.csv", "target,optimizer,seed,evaluations,generation,batch_best,best,stage", rows)
 
 
-def write_growth(report, species, seeds):
+def write_growth(report, species, seeds, lsystems=()):
     rng, rows, boxes = random.Random(2), [], []
     for i, name in enumerate(species):
         middle = 10 ** (2.3 + 2.7 * i / len(species))
@@ -173,11 +173,20 @@ def write_growth(report, species, seeds):
         leaves = 0 if i == 2 else middle * 3
         for seed, knots in enumerate(sizes):
             of_tree = round(leaves * knots / middle)
-            rows.append([name, seed + 1, round(knots), of_tree, 1e-7 * knots * rng.uniform(0.8, 1.5),
-                         3e-8 * of_tree * rng.uniform(0.8, 1.5)])
-        boxes.append([name, sizes[0], *quartiles(sizes), sizes[-1]])
-    write_csv(report / "growth_times.csv", "species,seed,knots,leaves,stem_seconds,leaf_seconds", rows)
-    write_csv(report / "growth_complexity.csv", "species,min,q25,median,q75,max", boxes)
+            rows.append([name, "weber_penn", seed + 1, round(knots), of_tree, 1e-7 * knots * rng.uniform(0.8, 1.5),
+                         3e-8 * of_tree * rng.uniform(0.8, 1.5), "", ""])
+        boxes.append([name, "weber_penn", sizes[0], *quartiles(sizes), sizes[-1]])
+    for name in lsystems:
+        sizes = sorted(1000 * math.exp(rng.gauss(0, 0.3)) for _ in range(seeds))
+        rows += [[name, f"{name}.lsys", seed + 1, round(knots), 100, "", "", 2e-7 * knots, 1e-7 * knots]
+                 for seed, knots in enumerate(sizes)]
+        boxes.append([name, f"{name}.lsys", sizes[0], *quartiles(sizes), sizes[-1]])
+    write_csv(report / "growth_times.csv", "species,model,seed,knots,leaves,stem_seconds,leaf_seconds,"
+              "derivation_seconds,interpretation_seconds", rows)
+    write_csv(report / "growth_complexity.csv", "species,model,min,q25,median,q75,max", boxes)
+    if lsystems:
+        write_csv(report / "growth_lsystems.csv", "species,model,exponent,standard_error,points",
+                  [[name, f"{name}.lsys", 1.3, 0.02, seeds] for name in lsystems])
     write_csv(report / "growth_fit.csv", "what,exponent,standard_error,factor,points",
               [["stems", 1.01, 0.004, 1.05e-7, len(rows)], ["leaves", 0.99, 0.005, 3.3e-8, len(rows)]])
     write_meta(report, meta("growth", "How long does a tree take?",
