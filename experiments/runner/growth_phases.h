@@ -10,7 +10,7 @@
 
 namespace espalier {
 
-/// Seconds; NaN for phases that a model does not have.
+/// Seconds of processor time; NaN for phases that a model does not have.
 struct GrowthTimes {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   double stems_s = kNone, leaves_s = kNone;
@@ -22,7 +22,7 @@ class TimedGrower {
  public:
   virtual ~TimedGrower() = default;
   /// Grows the tree of this seed several times. Of each phase the shortest time counts, which other programs
-  /// disturbed least.
+  /// on the processor disturbed least.
   virtual GrowthTimes grow(Seed seed) = 0;
   /// The tree that was grown last.
   const Plant& plant() const { return plant_; }
