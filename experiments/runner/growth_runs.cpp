@@ -2,7 +2,7 @@
 
 #include <espalier/core/files.h>
 #include <espalier/experiments/runner/csv.h>
-#include <espalier/experiments/runner/growth_phases.h>
+#include <espalier/experiments/growth/growth_phases.h>
 #include <espalier/experiments/runner/growth_runs.h>
 #include <espalier/models/preset.h>
 

@@ -132,15 +132,25 @@ class Plots(ReportTest):
     def test_tables_of_earlier_versions_are_drawn_too(self):
         directory = self.fits()
         for name, younger in [("convergence.csv", "starts"), ("generations.csv", "stage")]:
-            with (directory / name).open(newline="") as file:
-                rows = list(csv.DictReader(file))
-            with (directory / name).open("w", newline="") as file:
-                writer = csv.DictWriter(file, [key for key in rows[0] if key != younger], extrasaction="ignore")
-                writer.writeheader()
-                writer.writerows(rows)
+            self.leave_out(directory / name, [younger])
         self.drawn(directory)
         self.assertTrue((directory / "convergence.svg").exists())
         self.assertTrue((directory / "generations.svg").exists())
+
+    def leave_out(self, table, columns):
+        with table.open(newline="") as file:
+            rows = list(csv.DictReader(file))
+        with table.open("w", newline="") as file:
+            writer = csv.DictWriter(file, [key for key in rows[0] if key not in columns], extrasaction="ignore")
+            writer.writeheader()
+            writer.writerows(rows)
+
+    def test_growth_of_earlier_versions_is_drawn_too(self):
+        directory = self.growth()
+        self.leave_out(directory / "growth_times.csv", ["model", "derivation_seconds", "interpretation_seconds"])
+        self.leave_out(directory / "growth_complexity.csv", ["model"])
+        self.drawn(directory)
+        self.expect_plots(directory, {"growth_times", "growth_size", "growth_complexity"})
 
     def test_axes_name_the_measures_of_the_objective(self):
         directory = self.fits()

@@ -7,9 +7,7 @@
 #include <espalier/experiments/declaration/experiment.h>
 #include <espalier/experiments/runner/csv.h>
 #include <espalier/experiments/runner/experiment_directory.h>
-#include <espalier/experiments/runner/growth_phases.h>
 #include <espalier/experiments/runner/run_experiment.h>
-#include <espalier/models/models.h>
 
 #include "support/temporary_folders.h"
 
@@ -50,19 +48,6 @@ TEST(GrowthRuns, SpeciesAndLSystemsHaveRowsOfTheirOwnPhases) {
 
 TEST(GrowthRuns, LSystemsAloneAreGrownAlone) {
   EXPECT_EQ(read_csv(grown("models = ['palm']\n") / "results.csv").rows.size(), 1u);
-}
-
-TEST(GrowthRuns, WhatIsTimedIsThePlantOfTheModel) {
-  const auto grower = time_lsystem("small_pine");
-  const Model& model = model_by_name("small_pine.lsys");
-  for (const Seed seed : {1, 5}) {
-    const GrowthTimes times = grower->grow(seed);
-    Plant plant;
-    model.generate(model.table().defaults(), seed, {}, plant);
-    EXPECT_EQ(grower->plant().knots.point_m, plant.knots.point_m);
-    EXPECT_EQ(grower->plant().leaves.position_m, plant.leaves.position_m);
-    EXPECT_EQ(times.all_s, times.derivation_s + times.interpretation_s);
-  }
 }
 
 }  // namespace

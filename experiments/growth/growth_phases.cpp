@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <espalier/experiments/runner/growth_phases.h>
+#include <espalier/experiments/growth/growth_phases.h>
 #include <espalier/lsystem/derivation/derivation.h>
 #include <espalier/lsystem/drawing/plant_builder.h>
 #include <espalier/lsystem/files/bundled.h>
