@@ -48,7 +48,7 @@ install(DIRECTORY targets DESTINATION ${data})
 install(DIRECTORY src/lsystem/models DESTINATION ${data}/lsystem)
 file(GLOB experiments CONFIGURE_DEPENDS experiments/*.toml)
 install(FILES ${experiments} DESTINATION ${data}/experiments)
-install(DIRECTORY experiments/report experiments/volumes DESTINATION ${data}/experiments
+install(DIRECTORY experiments/report experiments/volumes experiments/presets DESTINATION ${data}/experiments
         PATTERN __pycache__ EXCLUDE)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

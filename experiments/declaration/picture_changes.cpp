@@ -20,15 +20,8 @@ namespace {
 /// "mesh:FILE" with the file's place; other texts as they are.
 std::string with_found_mesh(const TomlSection& section, const std::string& text) {
   constexpr std::string_view kMesh = "mesh:";
-  std::error_code error;
   if (!text.starts_with(kMesh)) return text;
-  const std::string file = text.substr(kMesh.size());
-  if (std::filesystem::exists(file, error)) return text;
-  std::string found = beside_the_file(section, file);
-  if (const auto bundled = data_path_or_first("experiments") / file;
-      found == file && std::filesystem::is_regular_file(bundled, error))
-    found = bundled.string();
-  return std::string(kMesh).append(found);
+  return std::string(kMesh).append(find_data(section, text.substr(kMesh.size())));
 }
 
 void check_set(const Preset& preset, const std::string& name, double value) {
@@ -38,7 +31,7 @@ void check_set(const Preset& preset, const std::string& name, double value) {
 
 /// What the picture shows, and of which tree.
 void read_tree(const TomlSection& section, PictureChange& change) {
-  change.species = section.text_or("species", "");
+  change.species = find_species(section, section.text_or("species", ""));
   if (section.has("model")) change.model = find_lsystem(section, "model", section.text("model"));
   if (section.has("model") && section.has("species")) section.fail("model", "none beside a species");
   change.blend_with = section.text_or("blend_with", "");
@@ -94,6 +87,18 @@ void check_tree(const PicturesDeclaration& sheet, const PictureChange& change) {
 }
 
 }  // namespace
+
+std::string find_data(const TomlSection& section, const std::string& file) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error)) return file;
+  const std::string beside = beside_the_file(section, file);
+  const std::filesystem::path bundled = data_path_or_first("experiments") / file;
+  return beside == file && std::filesystem::is_regular_file(bundled, error) ? bundled.string() : beside;
+}
+
+std::string find_species(const TomlSection& section, const std::string& name) {
+  return name.ends_with(".toml") ? find_data(section, name) : name;
+}
 
 std::vector<PictureChange> read_changes(const TomlSection& pictures, const std::string& key,
                                         const PicturesDeclaration& sheet) {

@@ -17,8 +17,14 @@ std::vector<PictureChange> read_changes(const TomlSection& pictures, const std::
 /// The change without its label, in words.
 std::string describe(const PictureChange& change);
 
-/// Meshes that are not found from the working directory may lie beside the experiment's file, or with the
-/// experiments that come with Espalier. Throws InputError with the place of `key` where one is none.
+/// A file that is not found from the working directory may lie beside the experiment's file, or with the
+/// experiments that come with Espalier; where it is nowhere, as it is named.
+std::string find_data(const TomlSection& section, const std::string& file);
+
+/// The same of a preset's file; names of bundled presets as they are.
+std::string find_species(const TomlSection& section, const std::string& name);
+
+/// Closed meshes, found as find_data does. Throws InputError with the place of `key` where one is none.
 std::vector<std::string> read_objects(const TomlSection& section, std::string_view key);
 
 /// A row's and a column's changes together; the column's win, and objects of both are there.

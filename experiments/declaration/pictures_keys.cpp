@@ -32,7 +32,7 @@ std::vector<ExperimentKey<Declaration>> keys_of_the_tree() {
   return {
       {{"species", "a preset", "", "whose trees are drawn; this or `model` must be given"},
        [](const TomlSection& pictures, Declaration& declaration) {
-         declaration.species = pictures.text("species");
+         declaration.species = find_species(pictures, pictures.text("species"));
          located(pictures, "species", [&] { return load_preset(declaration.species); });
        },
        unchanged<Declaration>([](const Declaration& declaration) { return declaration.species; })},

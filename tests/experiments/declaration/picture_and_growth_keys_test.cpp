@@ -143,7 +143,14 @@ TEST(PictureAndGrowthKeys, WhatARowSetsIsAParameterOfEachColumn) {
       AllOf(HasSubstr("study.toml:3: columns: got a blend of palm with acer"), HasSubstr("expected")));
 }
 
-TEST(PictureAndGrowthKeys, MeshesOfTheBundledExperimentsAreFoundFromAnywhere) {
+TEST(PictureAndGrowthKeys, APresetLiesBesideTheExperiment) {
+  const fs::path study = study_with("[pictures]\nspecies = 'own.toml'\ncolumns = [{species = 'own.toml'}]\n");
+  std::ofstream(study.parent_path() / "own.toml") << "extends = 'palm'\n";
+  EXPECT_EQ(read_experiment(study).pictures->species, (study.parent_path() / "own.toml").string());
+  EXPECT_EQ(read_experiment(study).pictures->columns[0].species, (study.parent_path() / "own.toml").string());
+}
+
+TEST(PictureAndGrowthKeys, FilesOfTheBundledExperimentsAreFoundFromAnywhere) {
   EXPECT_EQ(refusal_of("[pictures]\nspecies = 'palm'\nobjects = ['mesh:volumes/house.obj']\n"), "no error");
   EXPECT_EQ(refusal_of(
                 "[pictures]\nspecies = 'palm'\ncolumns = [{prune_to = 'mesh:volumes/beside_a_house.obj'}]\n"),
