@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <espalier/lsystem/derivation/context.h>
+#include <espalier/lsystem/derivation/identities.h>
 #include <espalier/lsystem/derivation/lua_functions.h>
 #include <espalier/lsystem/derivation/lua_surroundings.h>
 
@@ -68,9 +69,12 @@ struct Candidates {
 struct Rewriting {
   const ModuleString& string;
   const StringIndex& index;
-  RandomKey key;  ///< of the step
+  RandomKey key;                           ///< of the step
+  const Identities* identities = nullptr;  ///< of modules: what keys are made of instead of their places
 
-  RandomKey module_key(std::size_t module) const { return child_key(key, module); }
+  RandomKey module_key(std::size_t module) const {
+    return child_key(key, identities ? (*identities)[module] : module);
+  }
 };
 
 class Rule {
@@ -78,6 +82,8 @@ class Rule {
   Rule(const Production& production, RuleContext& shared);
 
   const Production& production() const { return *production_; }
+  /// Whether it may draw random numbers.
+  bool draws() const { return needs_keys_ || probability_.has_value(); }
 
   /// Finds the candidates that fit contexts and condition: hits(), and for a stochastic rule weights().
   void match(const Candidates& candidates, const Rewriting& rewriting, RuleContext& shared);

@@ -111,7 +111,8 @@ struct Grammar {
   bool has_sun = false;             ///< then sun_x, sun_y and sun_z are constants
   bool uses_light = false;
   std::shared_ptr<const Appearance> appearance;
-  bool follow_branches = false;  ///< right contexts look into branches too
+  bool follow_branches = false;        ///< right contexts look into branches too
+  std::optional<bool> leafy_segments;  ///< none: the file does not say, and they are not
 };
 
 }  // namespace espalier::lsystem

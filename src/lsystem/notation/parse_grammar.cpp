@@ -6,6 +6,7 @@
 #include <espalier/core/files.h>
 #include <espalier/lsystem/expressions/lua_words.h>
 #include <espalier/lsystem/notation/grammar.h>
+#include <espalier/lsystem/notation/headings.h>
 #include <espalier/lsystem/notation/parse_appearance.h>
 #include <espalier/lsystem/notation/parse_grammar.h>
 #include <espalier/lsystem/notation/parse_modules.h>
@@ -67,6 +68,7 @@ class Parser {
         {"interpretation:", &Parser::open_interpretation},
         {"lua:", &Parser::parse_lua},
         {"branches:", &Parser::parse_branches},
+        {"segments:", &Parser::parse_segments},
         {"const ", &Parser::parse_constants},
         {"param ", &Parser::parse_parameter},
         {"let ", &Parser::parse_let},
@@ -84,7 +86,9 @@ class Parser {
     if (cursor.rest().starts_with("surface "))
       return parse_surface_declaration(cursor, may_include, *appearance_);
     if (cursor.rest().starts_with("include ")) return parse_include(cursor, may_include);
-    if (!parse_setting(cursor)) read_production(cursor);
+    if (parse_setting(cursor)) return;
+    check_heading(cursor);
+    read_production(cursor);
   }
 
   void skip(Cursor&) {}
@@ -113,6 +117,12 @@ class Parser {
   void parse_branches(Cursor& cursor) {
     grammar_.follow_branches = cursor.take("follow");
     if (!grammar_.follow_branches && !cursor.take("skip")) cursor.fail("'skip' or 'follow'");
+    if (!cursor.at_end()) cursor.fail("the end of the line");
+  }
+
+  void parse_segments(Cursor& cursor) {
+    grammar_.leafy_segments = cursor.take("leafy");
+    if (!*grammar_.leafy_segments && !cursor.take("plain")) cursor.fail("'plain' or 'leafy'");
     if (!cursor.at_end()) cursor.fail("the end of the line");
   }
 
@@ -242,8 +252,8 @@ class Parser {
 
   void read_production(Cursor& cursor) {
     if (!section_ || cursor.rest().find("-->") == std::string_view::npos)
-      cursor.fail(section_ ? "a production with '-->', a setting or a keyword (see docs/lsystem.md)"
-                           : "a keyword, a setting, or 'productions:' before the first production");
+      fail_unknown(cursor, section_ ? "a production with '-->', a setting or a keyword (see docs/lsystem.md)"
+                                    : "a keyword, a setting, or 'productions:' before the first production");
     section_->push_back(parse_production(cursor, grammar_, section_->size() + 1));
     section_->back().table = table_;
   }
