@@ -100,10 +100,19 @@ void warn_of_ignored_leaves(const lsystem::Grammar& grammar, const lsystem::Symb
   }
 }
 
+/// Functions of files are taken over by a few numbers, which follow them nearly.
+void note_errors_of_functions(const lsystem::Grammar& grammar) {
+  for (const lsystem::FunctionDeclaration& function : grammar.functions)
+    if (!function.file.empty())
+      fmt::print(stderr, "espalier: {}: 7 numbers follow the function within {:.2g}\n", function.file,
+                 function.error);
+}
+
 void run_lsystem(const LsystemOptions& options) {
   if (options.list) return list_bundled();
   check_options(options);
   const lsystem::Grammar grammar = lsystem::load_grammar(options.file);
+  note_errors_of_functions(grammar);
   ParameterValues values = grammar.parameters.defaults();
   set_parameters(options.assignments, grammar.parameters, values);
   lsystem::Derivation derivation(grammar, options.limits);

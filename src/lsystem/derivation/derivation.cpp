@@ -67,6 +67,7 @@ void Derivation::run_lua_code() {
   shared_.lua.seal(false);
   for (const std::string& name : shared_.grammar.names.globals) shared_.lua.set_global(name, 0);
   name_surroundings(shared_.lua, shared_.grammar.names);
+  add_curves(shared_.lua, shared_.grammar.names.curves, shared_.curves);
   for (const LuaCode& code : shared_.grammar.lua) shared_.lua.run(code.text, code.label);
   shared_.lua.seal(true);
 }
@@ -119,6 +120,7 @@ void Derivation::start(std::span<const double> parameters, Seed seed) {
   modules_written_ = 0;
   shared_.lua.reset_instructions();
   run_lua_code();
+  make_curves(parameters);
   set_global(shared_.globals.size() - 1, 0);
   surroundings_->clear();
   const auto value_of = [&](BlockExpression& expression) { return evaluate(expression); };
@@ -132,6 +134,15 @@ void Derivation::start(std::span<const double> parameters, Seed seed) {
   shared_.lua.call_hook("on_start", {});
   evaluate_settings();
   write_axiom();
+}
+
+void Derivation::make_curves(std::span<const double> parameters) {
+  for (std::size_t i = 0; i < shared_.curves.size(); ++i) {
+    const FunctionDeclaration& function = shared_.grammar.functions[i];
+    shared_.curves[i] = make_curve(
+        function.first_parameter ? parameters.subspan(*function.first_parameter, function.numbers.size())
+                                 : std::span(function.numbers));
+  }
 }
 
 void Derivation::write_axiom() {

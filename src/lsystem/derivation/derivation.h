@@ -63,6 +63,7 @@ class Derivation {
   };
 
   void run_lua_code();
+  void make_curves(std::span<const double> parameters);
   double evaluate(BlockExpression& expression);
   void set_global(std::size_t global, double value);
   void evaluate_settings();

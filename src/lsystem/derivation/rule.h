@@ -9,6 +9,7 @@
 
 #include <espalier/lsystem/derivation/context.h>
 #include <espalier/lsystem/derivation/identities.h>
+#include <espalier/lsystem/derivation/lua_curves.h>
 #include <espalier/lsystem/derivation/lua_functions.h>
 #include <espalier/lsystem/derivation/lua_surroundings.h>
 
@@ -22,10 +23,12 @@ struct RuleContext {
   LuaFunctions functions;
   Surroundings surroundings;
   std::vector<double> globals;     ///< values of Names::globals
+  std::vector<Curve> curves;       ///< of Names::curves
   std::uint32_t random_sites = 1;  ///< 0 is the choice between stochastic productions
 
   RuleContext(const Grammar& file, const Limits& limits)
       : grammar(file), alphabet(file.alphabet), lua(limits), functions(lua, file, alphabet) {
+    curves.resize(file.functions.size());
     add_surroundings(lua, surroundings);
   }
 };

@@ -8,6 +8,7 @@
 #include <espalier/lsystem/notation/grammar.h>
 #include <espalier/lsystem/notation/headings.h>
 #include <espalier/lsystem/notation/parse_appearance.h>
+#include <espalier/lsystem/notation/parse_function.h>
 #include <espalier/lsystem/notation/parse_grammar.h>
 #include <espalier/lsystem/notation/parse_modules.h>
 #include <espalier/lsystem/notation/parse_parameter.h>
@@ -21,6 +22,8 @@ namespace espalier::lsystem {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFunctions = 1000;
 
 class Parser {
  public:
@@ -72,6 +75,7 @@ class Parser {
         {"const ", &Parser::parse_constants},
         {"param ", &Parser::parse_parameter},
         {"let ", &Parser::parse_let},
+        {"function ", &Parser::parse_function},
         {"volume ", &Parser::parse_volume},
         {"plant ", &Parser::parse_plant},
         {"field ", &Parser::parse_field},
@@ -199,6 +203,25 @@ class Parser {
     const std::string code =
         fmt::format("function {}({}) return {} end", function.name, parameters, function.body);
     grammar_.lua.push_back({lua_code(cursor, body.position.offset, code), cursor.position().source->label});
+  }
+
+  /// function f = [0, 0.2, 1, 1] in 0 .. 1
+  void parse_function(Cursor& cursor) {
+    const std::string name = new_name(cursor);
+    if (grammar_.functions.size() >= kMostFunctions)
+      throw_at(cursor.position(), "got more than {} functions, expected fewer", kMostFunctions);
+    const Position position = cursor.position();
+    std::vector<ParameterInfo> rows;
+    FunctionDeclaration function = parse_function_declaration(cursor, name, rows);
+    if (!rows.empty()) function.first_parameter = grammar_.parameters.rows.size();
+    for (ParameterInfo& row : rows) {
+      if (!taken_.insert(row.name).second)
+        throw_at(position, "got '{}' a second time, as a number of '{}', expected another name", row.name,
+                 name);
+      grammar_.parameters.rows.push_back(std::move(row));
+    }
+    grammar_.functions.push_back(std::move(function));
+    grammar_.names.curves.push_back(name);
   }
 
   void parse_volume(Cursor& cursor) { parse_volume_declaration(cursor, new_name(cursor), grammar_); }
