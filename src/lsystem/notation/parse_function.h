@@ -8,7 +8,7 @@ namespace espalier::lsystem {
 
 /// After "function NAME": = [numbers], 1, 4, 5 or 7 of them, or = "file.func" in the folder of the L-system,
 /// to which 7 numbers are fitted. With "in low .. high" each of them is a row of `rows`, f_1, f_2, …: the
-/// numbers stand at evenly spread places from 0 to 1, and the function lies within their bounds. Throws
+/// numbers stand at the places of curve_abscissae, and the function lies within their bounds. Throws
 /// InputError for other counts, numbers that are not finite or out of bounds, and files that are no function
 /// of vlab.
 FunctionDeclaration parse_function_declaration(Cursor& cursor, const std::string& name,
