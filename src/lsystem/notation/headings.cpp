@@ -29,11 +29,9 @@ constexpr std::array kForeign{
     ForeignWord{"homomorph", "interpretation"},       ForeignWord{"decompos", "productions"},
     ForeignWord{"derivation length", "steps", false}, ForeignWord{"startlsystem", "axiom", false}};
 
-/// The words of the first line before a colon; empty where something else stands there.
+/// The words of the first line before its colon or end; empty where something else stands there.
 std::string words_before_colon(std::string_view line) {
-  const std::size_t colon = line.find(':');
-  if (colon == std::string_view::npos) return "";
-  std::string_view words = line.substr(0, colon);
+  std::string_view words = line.substr(0, line.find(':'));
   while (words.ends_with(' ')) words.remove_suffix(1);
   const auto is_part = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ' '; };
   return std::all_of(words.begin(), words.end(), is_part) ? std::string(words) : "";
@@ -77,11 +75,15 @@ void check_heading(const Cursor& cursor) {
   const std::string_view line = first_line(cursor.rest());
   std::string words = words_before_colon(line);
   const ForeignWord* foreign = find_foreign(words);
-  // An id has its production beside it, and the colon before a condition has a space before it.
-  const bool stands_alone = !words.empty() && line.size() == words.size() + 1;
+  // An id has its colon at once and its production beside it; the colon before a condition has a space before
+  // it.
+  const std::string_view after = line.substr(words.size());
+  const bool is_id = after.starts_with(':'), ends = after == ":" || after == " :" || after.empty();
+  const bool is_heading =
+      !words.empty() && (after == ":" || ((is_id || ends) && foreign && foreign->is_heading));
   if (is_misspelt_table(line))
     words = std::string(line.substr(0, line.find(' ')));
-  else if (!stands_alone && !(foreign && foreign->is_heading))
+  else if (!is_heading)
     return;
   throw_at(
       cursor.position(),
@@ -90,8 +92,9 @@ void check_heading(const Cursor& cursor) {
 }
 
 void fail_unknown(const Cursor& cursor, std::string_view expected) {
-  const std::string words = words_before_colon(first_line(cursor.rest()));
-  if (words.empty()) cursor.fail(expected);
+  const std::string_view line = first_line(cursor.rest());
+  const std::string words = words_before_colon(line);
+  if (words.empty() || line.find(':') == std::string_view::npos) cursor.fail(expected);
   const ForeignWord* foreign = find_foreign(words);
   throw_at(cursor.position(), "got '{}:', expected {}, the closest is '{}'", words, expected,
            foreign ? std::string(foreign->closest) : closest_name(words, known_words()));

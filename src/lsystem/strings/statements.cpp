@@ -55,7 +55,8 @@ class Splitter {
 
   void add(std::size_t begin, std::string_view raw) {
     const bool goes_on = open_ && indentation(raw) > indentation_;
-    const std::string_view line = goes_on && in_lua_ ? raw : raw.substr(0, comment_start(raw));
+    const bool is_code = goes_on ? in_lua_ : is_lua(raw);
+    const std::string_view line = is_code ? raw : raw.substr(0, comment_start(raw));
     if (indentation(line) == line.size()) return;  // empty, or only a comment
     if (!goes_on) {
       file_.statements.push_back({begin + indentation(line), 0});

@@ -34,6 +34,10 @@ TEST(LuaBodies, TakeTheLengthOfATable) {
             "F(1)");
 }
 
+TEST(LuaBodies, AreReadAsTheCodeOfTheFileIs) {
+  EXPECT_EQ(strings_of("lua: n = # {1, 2}\n  m = # {1}  -- one\naxiom: A(n,m)\n", 0).back(), "A(2,1)");
+}
+
 TEST(LuaBodies, EndWithTheirProduction) {
   EXPECT_EQ(strings_of("axiom: AB\nproductions:\n  A --> lua\n    local t = {1}\n    produce(\"F\", # t)\n"
                        "  # a comment of the file\n  B --> C  # another\n",

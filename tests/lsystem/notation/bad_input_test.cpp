@@ -162,6 +162,8 @@ INSTANTIATE_TEST_SUITE_P(
               "got the unknown heading 'StartEach'"},
         Fault{"derivation length: 3\naxiom: A\n",
               "bad.lsys:1:1: got 'derivation length:', expected a keyword"},
+        Fault{"axiom: A\nproductions:\n A --> B\nhomomorphism\n  B --> F\n",
+              "bad.lsys:4:1: got the unknown heading 'homomorphism'"},
         Fault{"derivation length: 3\naxiom: A\n", "the closest is 'steps'"},
         Fault{"Axiom: A\n", "the closest is 'axiom'"},
         Fault{"axiom: A\nproductions:\n A --> B\nsegmants: leafy\n", "the closest is 'segments'"},
@@ -171,6 +173,9 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(GoodFiles, IdsAndConditionsAreNoHeadings) {
   EXPECT_EQ(message_of("axiom: A(1)\nproductions:\n  shade1: A(x) :\n      x > 9 --> B\n"
                        "  table_2: A(x) : x <= 9\n      --> C\n"),
+            "no error");
+  EXPECT_EQ(message_of("symbols: Product Production\naxiom: Production\nproductions:\n"
+                       "  Production : step > 1 --> Product\n  product: Product --> A\n"),
             "no error");
 }
 
