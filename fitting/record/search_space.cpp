@@ -94,10 +94,23 @@ FreeParameter make_free(const ParameterTable& table, std::size_t row_index, cons
           .split_at_zero = row.sign == SignMeaning::flag && range.lower < 0 && range.upper > 0};
 }
 
+/// A model may have no parameter that searches vary unless told so: an L-system without `param`.
+void check_has_defaults(const ParameterTable& table) {
+  const auto is_default = [](const ParameterInfo& row) { return row.free_by_default; };
+  if (std::any_of(table.rows.begin(), table.rows.end(), is_default)) return;
+  const auto unit = table.find(Role::length_unit);
+  throw_input_error(
+      "{}: got a model without parameters to search, expected at least one, in an L-system a line "
+      "such as 'param spread = 30 in 10 .. 60 deg'{}",
+      table.model,
+      unit ? fmt::format("; its size alone is searched with --free {}", table.rows[*unit].name) : "");
+}
+
 std::vector<bool> chosen_rows(const ParameterTable& table, const SearchChoice& choice) {
   std::vector<bool> chosen(table.rows.size(), false);
   const std::vector<std::string> patterns =
       choice.free.empty() ? std::vector<std::string>{"default"} : choice.free;
+  if (std::find(patterns.begin(), patterns.end(), "default") != patterns.end()) check_has_defaults(table);
   for (const std::string& pattern : patterns)
     for (const std::size_t row : rows_matching(table, pattern, "search.free")) chosen[row] = true;
   for (const auto& [pattern, value] : choice.fixed)

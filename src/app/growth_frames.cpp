@@ -33,9 +33,13 @@ double time_of(int frame, int frames, int steps) {
   return frames == 1 ? steps : static_cast<double>(frame) * steps / (frames - 1);
 }
 
-void grow_to(double time, lsystem::Derivation& derivation, Plant& plant) {
+/// The derivation ends with the last of its `steps`, and not with a picture before.
+void grow_to(double time, int steps, lsystem::Derivation& derivation, Plant& plant) {
   const double step = std::floor(time);
-  derivation.run(static_cast<int>(step));
+  if (time < steps)
+    derivation.advance(static_cast<int>(step));
+  else
+    derivation.run(steps);
   lsystem::build_plant(derivation.interpreted(time - step), derivation.alphabet(), derivation.settings(),
                        plant);
 }
@@ -57,7 +61,7 @@ void write_growth_frames(lsystem::Derivation& derivation, const ParameterValues&
   ProgressLine progress(false, 10);
   Plant plant;
   derivation.start(values, seed);
-  grow_to(steps, derivation, plant);  // first of all, because the camera is that of the last plant
+  grow_to(steps, steps, derivation, plant);  // first of all, because the camera is that of the last plant
   const Camera camera = camera_of(view, plant);
   std::optional<Animation> animation;
   if (is_gif(options.output))
@@ -65,7 +69,7 @@ void write_growth_frames(lsystem::Derivation& derivation, const ParameterValues&
   derivation.start(values, seed);
   for (int frame = 0; frame < options.frames; ++frame) {
     progress.show([&] { return fmt::format("frame {} of {}", frame + 1, options.frames); });
-    grow_to(time_of(frame, options.frames, steps), derivation, plant);
+    grow_to(time_of(frame, options.frames, steps), steps, derivation, plant);
     const Picture picture = render_shaded(plant, camera, shading);
     if (is_interrupted()) {
       progress.end();

@@ -14,9 +14,11 @@ Seed seed_of(const Preset& preset);
 struct PresetGrowth {
   std::optional<Seed> seed = {};     ///< instead of the preset's
   const Volume* prune_to = nullptr;  ///< instead of the outlines that the preset was grown into; not owned
+  std::optional<int> steps = {};     ///< instead of all, of a model that grows in steps
 };
 
-/// Throws InputError, which opens with `name`, where the tree would be larger than growth allows.
+/// Throws InputError, which opens with `name`, where the tree would be larger than growth allows, or where
+/// its model is asked for steps and has none.
 Plant grow_preset(const Preset& preset, const std::string& name, const PresetGrowth& growth = {});
 
 }  // namespace espalier

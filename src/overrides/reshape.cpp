@@ -296,6 +296,7 @@ void Reshaper::write_leaf(std::uint32_t leaf, Plant& shaped) const {
   to.width_m.push_back(from.width_m[leaf]);
   to.kind.push_back(from.kind[leaf]);
   if (!from.color.empty()) to.color.push_back(from.color[leaf]);
+  if (!from.shade.empty()) to.shade.push_back(from.shade[leaf]);
 }
 
 void Reshaper::reshape(const ChangeGraph* changes, const PlantPart* only_part, Plant& shaped) {

@@ -30,6 +30,9 @@ struct PlantPart {
   bool alone = false;
 };
 
+/// As many steps as the model has.
+inline constexpr int kAllSteps = -1;
+
 struct GrowthSettings {
   GrowthBudget budget;
   const Volume* prune_to = nullptr;      ///< replaces the parametric pruning envelope; not owned
@@ -38,6 +41,7 @@ struct GrowthSettings {
   const PlantPart* only_part =
       nullptr;                    ///< grow this branch, in its place, and leave out the rest; not owned
   LeafSink* leaf_sink = nullptr;  ///< gets leaves that the plant then lacks: all, some or none; not owned
+  int steps = kAllSteps;          ///< of a model that grows in steps: how many
 };
 
 /// How large the plant of these values is expected to get, without growing it.
@@ -79,6 +83,8 @@ class Model {
     (void)values;
     return {};
   }
+  /// Whether the model follows `steps`.
+  virtual bool grows_in_steps() const { return false; }
   /// Names of bundled presets that are trees of one trunk with fronds, the most typical one first.
   virtual std::vector<std::string> palm_presets() const { return {}; }
   virtual GrowthEstimate estimate(std::span<const double> values) const = 0;

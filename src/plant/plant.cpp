@@ -86,6 +86,7 @@ void Plant::clear() {
   leaves.width_m.clear();
   leaves.kind.clear();
   leaves.color.clear();
+  leaves.shade.clear();
   leaf_shape = 8;
   blossom_shape = 1;
   tree_scale_m = 0;
@@ -99,7 +100,7 @@ std::size_t memory_bytes(const Plant& plant) {
   return bytes(stems.first_knot, stems.parent, stems.level, stems.path_key, stems.origin, stems.child_index,
                knots.point_m, knots.handle_in_m, knots.handle_out_m, knots.radius_m, leaves.position_m,
                leaves.axis, leaves.side, leaves.length_m, leaves.width_m, leaves.kind, knots.color,
-               leaves.color);
+               leaves.color, leaves.shade);
 }
 
 Bounds bounds(const Plant& plant) {

@@ -50,9 +50,14 @@ struct Leaves {
   std::vector<float> length_m, width_m;  ///< scale of the unit outline along axis and side
   std::vector<LeafKind> kind;
   std::vector<PartColor> color;  ///< empty: none is set
+  std::vector<std::uint32_t>
+      shade;  ///< leaves of one number have the same shade of their material; empty: each has its own
 
   std::size_t size() const { return length_m.size(); }
 };
+
+/// In Leaves::shade: the colour of the material as it is.
+inline constexpr std::uint32_t kPlainShade = ~std::uint32_t{0};
 
 struct Plant {
   Stems stems;

@@ -25,6 +25,7 @@ namespace {
 
 struct LsystemOptions {
   std::string file;
+  bool list = false;
   std::optional<int> steps;
   Seed seed = 1;
   std::vector<std::string> assignments, volumes;
@@ -66,6 +67,8 @@ GrowthFrames frames_of(const LsystemOptions& options) {
 }
 
 void check_options(const LsystemOptions& options) {
+  if (options.file.empty())
+    throw_input_error("got no file, expected an .lsys file or the name of a bundled one (see --list)");
   if (options.print_string && options.frames)
     throw_input_error("got both --string and --frames, expected one of them");
   if (options.print_string == !options.output.empty())
@@ -79,9 +82,37 @@ void check_options(const LsystemOptions& options) {
   if (!options.frames) check_png_path(options.output);
 }
 
+void list_bundled() {
+  for (const std::string& name : lsystem::bundled_names())
+    fmt::print("{:<24} {}\n", name, lsystem::bundled_description(name));
+}
+
+/// Of a file that does not say whether its segments are leafy: those of earlier versions were.
+void warn_of_ignored_leaves(const lsystem::Grammar& grammar, const lsystem::SymbolTable& alphabet) {
+  for (std::size_t id = 0; id < alphabet.size() && !grammar.leafy_segments; ++id) {
+    const lsystem::Symbol& symbol = alphabet[static_cast<lsystem::SymbolId>(id)];
+    if (symbol.arity < 3 || (symbol.name != "F" && symbol.name != "G")) continue;
+    fmt::print(stderr,
+               "espalier: warning: {}: {} has {} parameters, of which length and width are drawn; write "
+               "'segments: leafy' where the third is a number of leaves, else 'segments: plain'\n",
+               grammar.name, symbol.name, symbol.arity);
+    return;
+  }
+}
+
+/// Functions of files are taken over by a few numbers, which follow them nearly.
+void note_errors_of_functions(const lsystem::Grammar& grammar) {
+  for (const lsystem::FunctionDeclaration& function : grammar.functions)
+    if (!function.file.empty())
+      fmt::print(stderr, "espalier: {}: 7 numbers follow the function within {:.2g}\n", function.file,
+                 function.error);
+}
+
 void run_lsystem(const LsystemOptions& options) {
+  if (options.list) return list_bundled();
   check_options(options);
   const lsystem::Grammar grammar = lsystem::load_grammar(options.file);
+  note_errors_of_functions(grammar);
   ParameterValues values = grammar.parameters.defaults();
   set_parameters(options.assignments, grammar.parameters, values);
   lsystem::Derivation derivation(grammar, options.limits);
@@ -91,9 +122,12 @@ void run_lsystem(const LsystemOptions& options) {
   if (!options.volumes.empty()) derivation.start(values, options.seed);
   const int steps = options.steps.value_or(derivation.settings().steps);
   if (options.frames)
-    return write_growth_frames(derivation, values, options.seed, steps, options.view, options.shading,
-                               frames_of(options));
-  derivation.run(steps);
+    write_growth_frames(derivation, values, options.seed, steps, options.view, options.shading,
+                        frames_of(options));
+  else
+    derivation.run(steps);
+  warn_of_ignored_leaves(grammar, derivation.alphabet());
+  if (options.frames) return;
   if (options.print_string) return fmt::print("{}\n", derivation.text());
   const Plant plant = plant_of(derivation);
   draw(plant, camera_of(options.view, plant), options, options.output);
@@ -112,7 +146,8 @@ void add_lsystem_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("lsystem", "Derive an L-system: print its string or draw it");
   command->footer(help_of_commands());
   const auto options = std::make_shared<LsystemOptions>();
-  command->add_option("file", options->file, "an .lsys file, or the name of a bundled one")->required();
+  command->add_option("file", options->file, "an .lsys file, or the name of a bundled one");
+  command->add_flag("--list", options->list, "list the bundled L-systems, with what each is");
   command->add_option("--steps", options->steps, "derivation steps; else those the file says");
   command->add_option("--seed", options->seed, "seed of the random numbers")
       ->check(reject_negative)

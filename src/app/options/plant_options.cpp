@@ -32,12 +32,17 @@ void set_parameters(const std::vector<std::string>& assignments, const Parameter
 }
 
 void add_plant_options(CLI::App& command, PlantOptions& options) {
-  command.add_option("preset", options.preset, "a bundled preset (see: espalier species) or a TOML file")
+  command
+      .add_option(
+          "preset", options.preset,
+          "a bundled preset (see: espalier species), a TOML file, an .lsys file, or a bundled L-system with "
+          "its ending, such as fern.lsys (see: espalier lsystem --list)")
       ->required();
   command.add_option("--seed", options.seed, "seed of the random numbers (default: the preset's, or 1)")
       ->check(reject_negative);
   command.add_option("--set", options.assignments, "change a parameter: name=value (repeatable)")
       ->allow_extra_args(false);
+  command.add_option("--steps", options.steps, "derivation steps of an L-system; else those the file says");
   command.add_option(
       "--prune-to", options.prune_to,
       "keep the plant inside box:cx,cy,cz,sx,sy,sz, ball:cx,cy,cz,r, cylinder:cx,cy,cz,r,h, "
@@ -56,11 +61,14 @@ std::unique_ptr<Volume> read_volume(const std::string& text) {
 }
 
 Plant grow_plant(const PlantOptions& options) {
+  if (options.steps && *options.steps < 0)
+    throw_input_error("--steps {}: expected 0 or more", *options.steps);
   Preset preset = load_preset(options.preset);
   const Model& model = model_by_name(preset.model);
   set_parameters(options.assignments, model.table(), preset.values);
   const std::unique_ptr<Volume> volume = options.prune_to.empty() ? nullptr : read_volume(options.prune_to);
-  return grow_preset(preset, options.preset, {.seed = options.seed, .prune_to = volume.get()});
+  return grow_preset(preset, options.preset,
+                     {.seed = options.seed, .prune_to = volume.get(), .steps = options.steps});
 }
 
 }  // namespace espalier

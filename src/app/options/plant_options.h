@@ -1,4 +1,4 @@
-// The options of commands that grow one plant, and the growing: preset, --seed, --set, --prune-to.
+// The options of commands that grow one plant, and the growing: preset, --seed, --set, --steps, --prune-to.
 // Shared by mesh, mask and render, so that the same words grow the same plant everywhere.
 #pragma once
 #include <memory>
@@ -22,9 +22,10 @@ struct PlantOptions {
   std::optional<Seed> seed;              ///< of the random numbers; none: the preset's
   std::vector<std::string> assignments;  ///< "name=value", after the preset, in order
   std::string prune_to;                  ///< a volume as text (environment/volume.h), empty for none
+  std::optional<int> steps;              ///< of an L-system, from 0; none: those the file says
 };
 
-/// Adds the positional PRESET and the options --seed, --set and --prune-to to a command.
+/// Adds the positional PRESET and the options --seed, --set, --steps and --prune-to to a command.
 void add_plant_options(CLI::App& command, PlantOptions& options);
 
 /// Sets what "name=value" says, in order. Throws FieldError for unknown names and values out of bounds.

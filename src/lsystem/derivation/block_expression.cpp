@@ -61,8 +61,9 @@ BlockExpression::BlockExpression(const Expression& expression, std::span<const s
 Column BlockExpression::compute(std::span<const Column> columns, const RandomKey* keys, std::size_t count,
                                 RuleContext& shared) {
   if (program_)
-    return run_program(*program_, {columns, shared.globals.data(), keys, count, &shared.surroundings},
-                       scratch_);
+    return run_program(
+        *program_, {columns, shared.globals.data(), keys, count, &shared.surroundings, shared.curves.data()},
+        scratch_);
   scratch_.resize(kBlockSize);
   shared.functions.evaluate(function_, columns, keys, count, scratch_.data());
   return {scratch_.data(), 1};

@@ -9,7 +9,8 @@ namespace espalier::lsystem {
 
 namespace {
 
-constexpr std::uint64_t kInterpretationPlace = 1u << 20;  // steps have smaller numbers
+constexpr std::uint64_t kInterpretationPlace = 1u
+                                               << 20;  // steps have smaller numbers: the same in all of them
 
 /// The axiom as the successor of a module that stands alone: it is computed like any other.
 std::vector<Production> axiom_production(const Grammar& grammar, SymbolId start) {
@@ -55,7 +56,7 @@ Derivation::Derivation(const Grammar& grammar, const Limits& limits)
     table_conditions_.emplace_back(table.condition, std::span<const std::string>(), true, shared_);
   surroundings_.emplace(shared_);
   productions_.emplace(grammar.productions, shared_, limits);
-  interpretations_.emplace(grammar.interpretations, shared_, limits);
+  interpretations_.emplace(grammar.interpretations, shared_, limits, RandomSites::of_each_production);
   axiom_ = axiom_production(grammar, shared_.alphabet.intern("axiom", 0));
   axiom_rewriter_.emplace(axiom_, shared_, limits);
 }
@@ -66,6 +67,7 @@ void Derivation::run_lua_code() {
   shared_.lua.seal(false);
   for (const std::string& name : shared_.grammar.names.globals) shared_.lua.set_global(name, 0);
   name_surroundings(shared_.lua, shared_.grammar.names);
+  add_curves(shared_.lua, shared_.grammar.names.curves, shared_.curves);
   for (const LuaCode& code : shared_.grammar.lua) shared_.lua.run(code.text, code.label);
   shared_.lua.seal(true);
 }
@@ -96,6 +98,7 @@ void Derivation::set_global(std::size_t global, double value) {
 void Derivation::evaluate_settings() {
   settings_ = {};
   settings_.appearance = shared_.grammar.appearance;
+  settings_.leafy_segments = shared_.grammar.leafy_segments.value_or(false);
   for (SettingValue& entry : setting_values_) {
     const NotationSetting& info = *find_setting(entry.setting->name);
     SettingValues values{};
@@ -117,6 +120,7 @@ void Derivation::start(std::span<const double> parameters, Seed seed) {
   modules_written_ = 0;
   shared_.lua.reset_instructions();
   run_lua_code();
+  make_curves(parameters);
   set_global(shared_.globals.size() - 1, 0);
   surroundings_->clear();
   const auto value_of = [&](BlockExpression& expression) { return evaluate(expression); };
@@ -132,15 +136,33 @@ void Derivation::start(std::span<const double> parameters, Seed seed) {
   write_axiom();
 }
 
+void Derivation::make_curves(std::span<const double> parameters) {
+  for (std::size_t i = 0; i < shared_.curves.size(); ++i) {
+    const FunctionDeclaration& function = shared_.grammar.functions[i];
+    shared_.curves[i] = make_curve(
+        function.first_parameter ? parameters.subspan(*function.first_parameter, function.numbers.size())
+                                 : std::span(function.numbers));
+  }
+}
+
 void Derivation::write_axiom() {
   string_.clear();
   string_.symbols.push_back(shared_.alphabet.intern("axiom", 0));
-  axiom_rewriter_->rewrite(string_, child_key(root_key(seed_), 0), {}, next_);
+  identities_.clear();
+  identities_.push_back(0);
+  axiom_rewriter_->rewrite(string_, child_key(root_key(seed_), 0), {}, next_, lineage());
   finish_step();
+}
+
+/// Identities are for interpretation rules that draw random numbers only.
+Lineage Derivation::lineage() {
+  if (!interpretations_->draws()) return {};
+  return {.string = &identities_, .result = &next_identities_, .step = static_cast<std::uint64_t>(step_)};
 }
 
 void Derivation::finish_step() {
   std::swap(string_, next_);
+  std::swap(identities_, next_identities_);
   modules_written_ += string_.size();
   cut_branches();
   fill_queries();
@@ -159,12 +181,16 @@ void Derivation::step() {
   std::vector<bool> table_is_on;
   for (BlockExpression& condition : table_conditions_) table_is_on.push_back(evaluate(condition) != 0);
   productions_->rewrite(string_, child_key(root_key(seed_), static_cast<std::uint64_t>(step_)), table_is_on,
-                        next_);
+                        next_, lineage());
   finish_step();
 }
 
-void Derivation::run(int steps) {
+void Derivation::advance(int steps) {
   while (step_ < steps) step();
+}
+
+void Derivation::run(int steps) {
+  advance(steps);
   if (!has_ended_) shared_.lua.call_hook("on_end", {});
   has_ended_ = true;
 }
@@ -180,6 +206,7 @@ void Derivation::cut_branches() {
   const auto& arities = shared_.alphabet.arities();
   SymbolId* kept = begin;
   double *value = string_.values.data(), *kept_value = value;
+  const bool has_identities = interpretations_->draws();
   int cut_depth = 0;  // of branches inside the one that is being cut; 0 where nothing is
   for (symbol = begin; symbol < end; ++symbol) {
     const std::size_t arity = arities[*symbol];
@@ -190,6 +217,9 @@ void Derivation::cut_branches() {
     else if (cut_depth > 0 && *symbol == close)
       --cut_depth;
     if (cut_depth == 0) {
+      if (has_identities)
+        identities_[static_cast<std::size_t>(kept - begin)] =
+            identities_[static_cast<std::size_t>(symbol - begin)];
       *kept++ = *symbol;
       kept_value = std::copy_n(value, arity, kept_value);
     }
@@ -197,14 +227,15 @@ void Derivation::cut_branches() {
   }
   string_.symbols.truncate(static_cast<std::size_t>(kept - begin));
   string_.values.truncate(static_cast<std::size_t>(kept_value - string_.values.data()));
+  if (has_identities) identities_.truncate(string_.size());
 }
 
 const ModuleString& Derivation::interpreted(double fraction) {
   if (interpretations_->is_empty()) return string_;
   if (fraction_global_) set_global(*fraction_global_, fraction);
-  interpretations_->rewrite(
-      string_, child_key(root_key(seed_), kInterpretationPlace + static_cast<std::uint64_t>(step_)),
-      std::vector<bool>(table_conditions_.size(), true), drawn_);
+  const Lineage keyed{.keys = interpretations_->draws() ? &identities_ : nullptr};
+  interpretations_->rewrite(string_, child_key(root_key(seed_), kInterpretationPlace),
+                            std::vector<bool>(table_conditions_.size(), true), drawn_, keyed);
   return drawn_;
 }
 

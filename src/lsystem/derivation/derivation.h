@@ -1,6 +1,7 @@
 // The derivation of an L-system: from the axiom, one string a step. After each step the cut symbol % erases
 // the rest of its branch, and the turtle fills the query modules ?P ?H ?U ?L [Topiary §3].
-// Random numbers are keyed by seed, step and place in the string: a derivation repeats bit for bit.
+// Random numbers are keyed by seed, step and place in the string, those of interpretation rules by seed and
+// identity of the module (identities.h): a derivation repeats bit for bit.
 #pragma once
 #include <functional>
 #include <span>
@@ -30,7 +31,9 @@ class Derivation {
   void start(Seed seed) { start(shared_.grammar.parameters.defaults(), seed); }
   /// One derivation step. Throws InputError where it fails, with the production and the module.
   void step();
-  /// Steps until step_number() is `steps`; calls on_end() of the file's Lua code after the last one.
+  /// Steps until step_number() is `steps`: a stage of growth that goes on.
+  void advance(int steps);
+  /// The same, and then calls on_end() of the file's Lua code: these were all steps.
   void run(int steps);
 
   int step_number() const { return step_; }
@@ -60,10 +63,12 @@ class Derivation {
   };
 
   void run_lua_code();
+  void make_curves(std::span<const double> parameters);
   double evaluate(BlockExpression& expression);
   void set_global(std::size_t global, double value);
   void evaluate_settings();
   void write_axiom();
+  Lineage lineage();
   void finish_step();
   void cut_branches();
   void fill_queries();
@@ -80,6 +85,7 @@ class Derivation {
   std::vector<Production> axiom_;  ///< one production whose successor is the axiom
   std::optional<Rewriter> axiom_rewriter_;
   ModuleString string_, next_, drawn_;
+  Identities identities_, next_identities_;  ///< of string_ and next_, where interpretation rules draw
   Plant shading_plant_;
   std::optional<std::size_t> fraction_global_;  ///< none where the file has another meaning for the name
   Settings settings_;

@@ -3,6 +3,7 @@
 
 #include <espalier/lsystem/derivation/lua_functions.h>
 #include <espalier/lsystem/strings/turtle_commands.h>
+#include <espalier/lsystem/surfaces/surfaces.h>
 
 namespace espalier::lsystem {
 
@@ -85,8 +86,10 @@ void LuaFunctions::produce(lua_State* state) {
     if (lua_type(state, i) != LUA_TSTRING)
       throw_input_error("produce: argument {} is a {}, expected the name of a module", i,
                         luaL_typename(state, i));
-    const char* text = lua_tostring(state, i++);
+    const std::string_view text = lua_tostring(state, i++);
     const int first = i;
+    if (text.ends_with('~') && i <= count && lua_type(state, i) == LUA_TSTRING)
+      out_->values.push_back(surface_by_name(lua_tostring(state, i++), *grammar_.appearance));
     while (i <= count && lua_type(state, i) == LUA_TNUMBER) {
       const double value = lua_tonumber(state, i++);
       if (!std::isfinite(value))
@@ -165,6 +168,7 @@ LuaState::Function LuaFunctions::compile_body(const Expression& body,
   const std::size_t code_start = body.text.find_first_not_of('\n');
   const std::string breaks = body.text.substr(0, code_start);
   const std::string label = body.position.source ? body.position.source->label : "L-system";
+  lua_.check_code(body.text, label);  // alone, so that no error lies in the line of the "end" that is added
   return lua_.make_function(breaks + "return function(" + joined(parameters) + ") " +
                                 (code_start == std::string::npos ? "" : body.text.substr(code_start)) +
                                 "\nend",

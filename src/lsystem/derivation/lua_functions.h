@@ -1,6 +1,7 @@
 // The Lua functions of an L-system: expressions over blocks of modules, one call for many modules, and the
 // bodies of productions, which append modules by produce("F", length, "[", "A", age + 1, "]"): names, each
-// followed by the parameters of its last module. random() is keyed by the step and the module.
+// followed by the parameters of its last module, of which that of a surface is its name: produce("~", "leaf",
+// 1). random() is keyed by the step and the module.
 #pragma once
 #include <span>
 #include <string>

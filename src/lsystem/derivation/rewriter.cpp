@@ -4,10 +4,16 @@
 
 namespace espalier::lsystem {
 
-Rewriter::Rewriter(const std::vector<Production>& productions, RuleContext& shared, const Limits& limits)
+Rewriter::Rewriter(const std::vector<Production>& productions, RuleContext& shared, const Limits& limits,
+                   RandomSites sites)
     : shared_(shared), limits_(limits) {
-  for (const Production& production : productions)
+  for (const Production& production : productions) {
+    const std::uint32_t before = shared.random_sites;
+    if (sites == RandomSites::of_each_production) shared.random_sites = 1;
+    const std::uint32_t first = shared.random_sites;
     rules_.push_back(std::make_unique<Rule>(production, shared));
+    shared.random_sites = before + (shared.random_sites - first);
+  }
 }
 
 /// The groups of the productions that take part in this step.
@@ -42,8 +48,12 @@ void Rewriter::prepare_skipped() {
   }
 }
 
+bool Rewriter::draws() const {
+  return std::any_of(rules_.begin(), rules_.end(), [](const auto& rule) { return rule->draws(); });
+}
+
 void Rewriter::rewrite(const ModuleString& string, RandomKey key, const std::vector<bool>& table_is_on,
-                       ModuleString& result) {
+                       ModuleString& result, const Lineage& lineage) {
   prepare_groups(table_is_on);
   if (needs_index_) {
     const SymbolId open = shared_.alphabet.intern("[", 0), close = shared_.alphabet.intern("]", 0);
@@ -51,14 +61,17 @@ void Rewriter::rewrite(const ModuleString& string, RandomKey key, const std::vec
     index_.build(string, shared_.alphabet, open, close, skipped_, shared_.grammar.follow_branches);
   }
   result.clear();
+  if (lineage.result) lineage.result->clear();
   value_offset_ = 0;
-  const Rewriting rewriting{string, index_, key};
+  const Rewriting rewriting{string, index_, key, lineage.keys};
   for (std::size_t begin = 0; begin < string.size(); begin += kBlockSize) {
     const std::size_t end = std::min(begin + kBlockSize, string.size());
     collect(string, begin, end);
     for (Group& group : groups_)
       if (group.candidates.size() > 0) choose(group, rewriting);
+    const std::size_t written = result.size();
     emit(string, begin, end, result);
+    if (lineage.result) emit_identities(string, begin, end, result.symbols.data() + written, lineage);
     if (result.size() > limits_.modules)
       throw TooManyModules(
           fmt::format("{}: the string has more than {} modules, expected fewer (--max-modules)",
@@ -210,6 +223,24 @@ void Rewriter::emit(const ModuleString& string, std::size_t begin, std::size_t e
       for (std::size_t v = 0; v < arity; ++v) *value_end++ = values[v];
     }
     values += arity;
+  }
+}
+
+/// Writes the identities of the block's part of the result, whose symbols start at `successors`.
+void Rewriter::emit_identities(const ModuleString& string, std::size_t begin, std::size_t end,
+                               const SymbolId* successors, const Lineage& lineage) {
+  // Lua bodies make symbols while the string is rewritten.
+  if (by_name_.size() != shared_.alphabet.size()) by_name_ = symbols_by_name(shared_.alphabet);
+  for (std::size_t i = begin; i < end; ++i) {
+    const Choice& choice = choices_[i - begin];
+    const std::size_t count = choice.rule ? choice.rule->symbol_count(choice.slot) : 1;
+    const std::uint64_t identity = (*lineage.string)[i];
+    if (choice.rule)
+      append_identities(identity, string.symbols[i], {successors, count}, by_name_, lineage.step,
+                        *lineage.result);
+    else
+      lineage.result->push_back(identity);
+    successors += count;
   }
 }
 

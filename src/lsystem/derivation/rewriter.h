@@ -9,17 +9,32 @@
 
 namespace espalier::lsystem {
 
+/// The identities of a rewritten string's modules, where somebody needs them.
+struct Lineage {
+  const Identities* keys = nullptr;    ///< of the string: random numbers are keyed by them, not by places
+  const Identities* string = nullptr;  ///< of the string, for those of the result
+  Identities* result = nullptr;
+  std::uint64_t step = 0;
+};
+
+/// How calls of random() are numbered. Rules of interpretation number their own: where a module becomes
+/// another one, the rule of that draws what the rule before drew.
+enum class RandomSites : std::uint8_t { of_all_productions, of_each_production };
+
 class Rewriter {
  public:
-  Rewriter(const std::vector<Production>& productions, RuleContext& shared, const Limits& limits);
+  Rewriter(const std::vector<Production>& productions, RuleContext& shared, const Limits& limits,
+           RandomSites sites = RandomSites::of_all_productions);
 
   void set_limits(const Limits& limits) { limits_ = limits; }
   bool is_empty() const { return rules_.empty(); }
+  /// Whether a production may draw random numbers.
+  bool draws() const;
   /// Rewrites `string` into `result`. `table_is_on` tells by table which productions take part.
   /// Throws InputError where several productions apply equally, a value is no finite number, or the result
   /// exceeds the limits.
   void rewrite(const ModuleString& string, RandomKey key, const std::vector<bool>& table_is_on,
-               ModuleString& result);
+               ModuleString& result, const Lineage& lineage = {});
 
  private:
   /// The rules for one symbol.
@@ -45,6 +60,8 @@ class Rewriter {
                    const Rewriting& rewriting) const;
   void apply(Rule& rule, const Candidates& candidates, const Rewriting& rewriting);
   void emit(const ModuleString& string, std::size_t begin, std::size_t end, ModuleString& result);
+  void emit_identities(const ModuleString& string, std::size_t begin, std::size_t end,
+                       const SymbolId* successors, const Lineage& lineage);
   [[noreturn]] void fail_conflict(const Rule& rule, const Rule& other, const Candidates& candidates,
                                   std::size_t candidate, const Rewriting& rewriting) const;
 
@@ -56,6 +73,7 @@ class Rewriter {
   bool needs_index_ = false;
   StringIndex index_;
   std::vector<std::uint8_t> skipped_;  ///< by symbol
+  std::vector<SymbolId> by_name_;      ///< by symbol: the first of its name, where identities are kept
   std::size_t value_offset_ = 0;       ///< of the next block
 
   // Of the current block

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include <espalier/lsystem/derivation/context.h>
+#include <espalier/lsystem/derivation/identities.h>
+#include <espalier/lsystem/derivation/lua_curves.h>
 #include <espalier/lsystem/derivation/lua_functions.h>
 #include <espalier/lsystem/derivation/lua_surroundings.h>
 
@@ -21,10 +23,12 @@ struct RuleContext {
   LuaFunctions functions;
   Surroundings surroundings;
   std::vector<double> globals;     ///< values of Names::globals
+  std::vector<Curve> curves;       ///< of Names::curves
   std::uint32_t random_sites = 1;  ///< 0 is the choice between stochastic productions
 
   RuleContext(const Grammar& file, const Limits& limits)
       : grammar(file), alphabet(file.alphabet), lua(limits), functions(lua, file, alphabet) {
+    curves.resize(file.functions.size());
     add_surroundings(lua, surroundings);
   }
 };
@@ -68,9 +72,12 @@ struct Candidates {
 struct Rewriting {
   const ModuleString& string;
   const StringIndex& index;
-  RandomKey key;  ///< of the step
+  RandomKey key;                           ///< of the step
+  const Identities* identities = nullptr;  ///< of modules: what keys are made of instead of their places
 
-  RandomKey module_key(std::size_t module) const { return child_key(key, module); }
+  RandomKey module_key(std::size_t module) const {
+    return child_key(key, identities ? (*identities)[module] : module);
+  }
 };
 
 class Rule {
@@ -78,6 +85,8 @@ class Rule {
   Rule(const Production& production, RuleContext& shared);
 
   const Production& production() const { return *production_; }
+  /// Whether it may draw random numbers.
+  bool draws() const { return needs_keys_ || probability_.has_value(); }
 
   /// Finds the candidates that fit contexts and condition: hits(), and for a stochastic rule weights().
   void match(const Candidates& candidates, const Rewriting& rewriting, RuleContext& shared);

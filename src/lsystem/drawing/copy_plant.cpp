@@ -33,11 +33,16 @@ void copy_as_triangles(const Leaves& from, std::size_t i, const LeafOutline& out
     const Vec3 v = outline.vertices[vertex];
     return frame.point_m(from.position_m[i] + x * v.x + y * v.y + z * v.z);
   };
+  const bool is_plain = !from.shade.empty() && from.shade[i] == kPlainShade;
   for (const auto& [a, b, c] : outline.triangles)
-    triangles.push_back({{corner(a), corner(b), corner(c)}, color_of(from.color, i), organ});
+    triangles.push_back({{corner(a), corner(b), corner(c)}, color_of(from.color, i), organ, is_plain});
 }
 
 }  // namespace
+
+bool is_copied_as_leaves(const Plant& plant, int leaf_shape) {
+  return plant.leaf_shape == leaf_shape && plant.leaves.shade.empty();
+}
 
 std::vector<std::int32_t> copy_stems(const JointedPlant& from, const CopyFrame& frame, std::int32_t parent,
                                      StemSplines& stems) {
@@ -73,7 +78,7 @@ void copy_leaves(const JointedPlant& from, const CopyFrame& frame, int leaf_shap
   const LeafOutline& outline = leaf_outline(plant.leaf_shape);
   for (std::size_t i = 0; i < plant.leaves.size(); ++i) {
     const std::uint32_t organ = first_organ + from.joints.organ_of_leaf[i];
-    if (plant.leaves.kind[i] != LeafKind::blossom && plant.leaf_shape != leaf_shape) {
+    if (plant.leaves.kind[i] != LeafKind::blossom && !is_copied_as_leaves(plant, leaf_shape)) {
       copy_as_triangles(plant.leaves, i, outline, frame, organ, triangles);
       continue;
     }

@@ -24,8 +24,12 @@ std::vector<std::int32_t> copy_stems(const JointedPlant& from, const CopyFrame& 
 void copy_organs(const JointedPlant& from, const std::vector<std::int32_t>& copies, const Organ& base,
                  std::vector<Organ>& organs);
 
-/// Adds the plant's leaves to those of a plant whose leaves have the shape `leaf_shape`: as leaves where that
-/// is theirs, else as triangles. Their organs are numbered from `first_organ`.
+/// Whether the plant's leaves can be leaves of a plant whose leaves have the shape `leaf_shape`: they have it
+/// too, and are no triangles that share shades.
+bool is_copied_as_leaves(const Plant& plant, int leaf_shape);
+
+/// Adds the plant's leaves to those of a plant whose leaves have the shape `leaf_shape`: as leaves where they
+/// can be, else as triangles. Their organs are numbered from `first_organ`.
 void copy_leaves(const JointedPlant& from, const CopyFrame& frame, int leaf_shape, std::uint32_t first_organ,
                  Leaves& leaves, std::vector<std::uint32_t>& organ_of_leaf,
                  std::vector<ColoredTriangle>& triangles);

@@ -52,7 +52,7 @@ class Builder : public SilentVisitor {
     if (!polygons_.empty()) return;
     if (axis_.stem < 0) axis_.holder = axis_.stem = stems_.add_stem(axis_.parent);
     stems_.start_segment(axis_.stem, point(turtle.position), radius(turtle), turtle.color);
-    if (step.arity >= 3) add_leaves(turtle, step);
+    if (settings_.leafy_segments && step.arity >= 3) add_leaves(turtle, step);
   }
 
   void end_segment(const Turtle& turtle, const Step& step) {
@@ -227,7 +227,7 @@ class Builder : public SilentVisitor {
   void fill(const std::vector<Vec3>& outline, PartColor color, std::uint32_t organ) {
     std::vector<Triangle> triangles;
     triangulate(outline, triangles);
-    for (const Triangle& triangle : triangles) add_triangle(triangle, color, organ);
+    for (const Triangle& triangle : triangles) add_triangle(triangle, color, organ, true);
   }
 
   void close_polygon(const Turtle& turtle, const Step& step) {
@@ -256,9 +256,9 @@ class Builder : public SilentVisitor {
     fill(outline, turtle.color, add_organ());
   }
 
-  void add_triangle(const Triangle& triangle, PartColor color, std::uint32_t organ) {
+  void add_triangle(const Triangle& triangle, PartColor color, std::uint32_t organ, bool is_plain = false) {
     check_count();
-    triangles_.push_back({triangle, color, organ});
+    triangles_.push_back({triangle, color, organ, is_plain});
   }
   void check_count(std::size_t more_leaves = 1, std::size_t more_copied_knots = 0) const {
     if (triangles_.size() + plant_.leaves.size() + more_leaves > kMostLeaves)
@@ -272,7 +272,7 @@ class Builder : public SilentVisitor {
   /// A copy of a plant, as if its turtle started with the position and the directions of this one.
   void add_copy(const Turtle& turtle, const JointedPlant& from, double scale, double width) {
     const Plant& plant = from.plant;
-    const bool as_leaves = plant.leaf_shape == settings_.leaf_shape;
+    const bool as_leaves = is_copied_as_leaves(plant, settings_.leaf_shape);
     const std::size_t pieces = as_leaves ? 1 : leaf_outline(plant.leaf_shape).triangles.size();
     check_count(pieces * plant.leaves.size(), plant.knots.size());
     copied_knots_ += plant.knots.size();

@@ -239,6 +239,9 @@ class Compiler {
     if (name == "true" || name == "false") return {Type::condition, literal(name == "true" ? 1 : 0)};
     for (const LetFunction& function : names_.functions)
       if (function.name == name) return call(function);
+    const auto curve = std::find(names_.curves.begin(), names_.curves.end(), name);
+    if (curve != names_.curves.end())
+      return on_curve(name, static_cast<std::uint16_t>(curve - names_.curves.begin()));
     if (name == "math") return in_math();
     return built_in(name);
   }
@@ -268,6 +271,14 @@ class Compiler {
     Scope scope;
     for (std::size_t i = 0; i < values.size(); ++i) scope[function.parameters[i]] = values[i];
     return compile(function.body, scope);
+  }
+
+  Value on_curve(std::string_view name, std::uint16_t curve) {
+    const std::vector<Value> values = arguments();
+    if (values.size() != 1) throw_input_error("{}: got {} arguments, expected 1", name, values.size());
+    const Operand result = emit(Op::curve, number(values[0]));
+    program_.code.back().object = curve;
+    return {Type::number, result};
   }
 
   /// inside(clip, x, y, z): the first argument is the name of a volume or a field.

@@ -155,6 +155,13 @@ LuaState::Function LuaState::make_function(const std::string& code, const std::s
   return luaL_ref(state_, LUA_REGISTRYINDEX);
 }
 
+void LuaState::check_code(const std::string& code, const std::string& label) {
+  const std::string name = "=" + label;
+  const int status = luaL_loadbufferx(state_, code.data(), code.size(), name.c_str(), "t");
+  if (status != 0) throw InputError(take_message(state_));
+  lua_pop(state_, 1);
+}
+
 void LuaState::check_expression(const std::string& expression, const Position& position) {
   // The line break ends a comment, so that it cannot hide the bracket.
   const std::string code = "return (" + expression + "\n)";

@@ -29,6 +29,8 @@ class LuaState {
   void run(const std::string& code, const std::string& label);
   /// The function that running `code` returns, kept. Throws as run() does.
   Function make_function(const std::string& code, const std::string& label);
+  /// Throws InputError with Lua's message unless `code` is Lua; runs nothing.
+  void check_code(const std::string& code, const std::string& label);
   /// Throws InputError at `position` unless `expression` is one Lua expression.
   void check_expression(const std::string& expression, const Position& position);
 

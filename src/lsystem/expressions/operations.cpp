@@ -50,6 +50,11 @@ void run_random(const OpArguments& in) {
   for (std::size_t i = 0; i < in.count; ++i) in.target[i] = random_unit(in.keys[i], site);
 }
 
+void run_curve(const OpArguments& in) {
+  const Curve& curve = in.curves[in.object];
+  for (std::size_t i = 0; i < in.count; ++i) in.target[i] = curve_value(curve, in.a[i]);
+}
+
 template <auto kMember>
 void at_points(const OpArguments& in) {
   for (std::size_t i = 0; i < in.count; ++i)
@@ -92,6 +97,7 @@ constexpr std::array<Operation, static_cast<std::size_t>(Op::count)> kOperations
     {Op::field, "value", 2, Written::specially, at_points<&Surroundings::field>},
     {Op::light, "light", 3, Written::specially, at_points<&Surroundings::light>},
     {Op::skylight, "skylight", 3, Written::specially, at_points<&Surroundings::skylight>},
+    {Op::curve, "function", 1, Written::specially, run_curve},
 }};
 
 consteval bool rows_are_in_order() {

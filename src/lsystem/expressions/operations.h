@@ -18,7 +18,8 @@ struct OpArguments {
   double* target = nullptr;
   std::size_t count = 0;
   const Surroundings* surroundings = nullptr;
-  std::size_t object = 0;  ///< a volume or a field
+  const Curve* curves = nullptr;
+  std::size_t object = 0;  ///< a volume, a field or a curve
 };
 
 /// How expressions write it.

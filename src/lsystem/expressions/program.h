@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include <espalier/core/curves/curve.h>
 #include <espalier/core/random.h>
 
 namespace espalier::lsystem {
@@ -54,6 +55,7 @@ enum class Op : std::uint8_t {
   field,
   light,
   skylight,
+  curve,
   count  ///< of the names above; operations.h has a row for each
 };
 
@@ -66,7 +68,7 @@ struct Instruction {
   Op op = Op::add;
   std::uint16_t target = 0;  ///< a temporary
   Operand a, b, c;
-  std::uint16_t object = 0;  ///< a volume or a field
+  std::uint16_t object = 0;  ///< a volume, a field or a curve
 };
 
 struct Program {
@@ -90,6 +92,7 @@ struct Names {
   std::vector<std::string> globals;  ///< constants and parameters in order, then "fraction", "step"
   std::vector<LetFunction> functions;
   std::vector<std::string> volumes, fields;     ///< in order
+  std::vector<std::string> curves;              ///< functions that are given by numbers, in order
   std::set<std::string, std::less<>> from_lua;  ///< given by the file's Lua code: not plain arithmetic
 };
 
@@ -112,6 +115,7 @@ struct ProgramInputs {
   const RandomKey* keys = nullptr;  ///< a key per module, for random()
   std::size_t count = 0;            ///< at most kBlockSize
   const Surroundings* surroundings = nullptr;
+  const Curve* curves = nullptr;  ///< in the order of their names
 };
 
 /// Runs the program. The result lies in `scratch`, among the inputs, or in the program.

@@ -32,7 +32,7 @@ class Runner {
   void run(const Instruction& instruction) {
     OpArguments in{
         column(instruction.a), column(instruction.b), column(instruction.c), inputs_.keys, nullptr, 0,
-        inputs_.surroundings,  instruction.object};
+        inputs_.surroundings,  inputs_.curves,        instruction.object};
     const bool varies = in.a.stride + in.b.stride + in.c.stride > 0 || instruction.op == Op::random;
     in.count = varies ? inputs_.count : 1;
     in.target = scratch_.data() + instruction.target * kBlockSize;

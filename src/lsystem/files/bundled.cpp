@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include <espalier/core/data_path.h>
@@ -11,6 +12,25 @@ std::vector<std::string> bundled_names() {
   std::vector<std::string> names;
   for (const EmbeddedFile& file : embedded_lsystems()) names.emplace_back(file.name);
   return names;
+}
+
+std::string bundled_description(std::string_view name) {
+  const auto files = embedded_lsystems();
+  const auto file =
+      std::find_if(files.begin(), files.end(), [&](const EmbeddedFile& f) { return f.name == name; });
+  if (file == files.end()) throw_input_error("got L-system '{}', expected a bundled one", name);
+  std::string text;
+  for (std::string_view rest = file->text; rest.starts_with('#');) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    text += rest.substr(1, end - 1);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  const std::size_t first = std::min(text.find_first_not_of(' '), text.size());
+  // A sentence ends with its bracket that names the source, or with a full stop before another sentence.
+  std::size_t end = text.find(". ", first);
+  while (end != std::string::npos && end >= 3 && text.substr(end - 3, 3) == "Fig")
+    end = text.find(". ", end + 1);
+  return text.substr(first, end == std::string::npos ? end : end + 1 - first);
 }
 
 Grammar load_grammar(const std::string& name_or_path) {

@@ -20,6 +20,10 @@ namespace espalier::lsystem {
 
 std::vector<std::string> bundled_names();
 
+/// What a bundled L-system is: the first sentence of the comment that its file opens with. Throws InputError
+/// for an unknown name.
+std::string bundled_description(std::string_view name);
+
 /// An L-system by path, or a bundled one by name, with or without ".lsys". Throws InputError where there is
 /// neither, or it is no L-system.
 Grammar load_grammar(const std::string& name_or_path);

@@ -45,12 +45,13 @@ struct GrownPlant {
   ParameterValues values;
   Seed seed = 0;
   GrowthBudget budget;
+  int steps = kAllSteps;
   GrowthResult result;
   Reshaper reshaper;
 
-  bool is_of(std::span<const double> other_values, Seed other_seed, const GrowthBudget& other) const {
-    return seed == other_seed && budget.max_stems == other.max_stems &&
-           budget.max_leaves == other.max_leaves && std::ranges::equal(values, other_values);
+  bool is_of(std::span<const double> other_values, Seed other_seed, const GrowthSettings& other) const {
+    return seed == other_seed && steps == other.steps && budget.max_stems == other.budget.max_stems &&
+           budget.max_leaves == other.budget.max_leaves && std::ranges::equal(values, other_values);
   }
 };
 
@@ -76,6 +77,7 @@ class LsystemModel : public Model {
   GrowthEstimate estimate(std::span<const double>) const override { return {1, 0, false}; }
 
   bool has_branch_paths() const override { return true; }
+  bool grows_in_steps() const override { return true; }
   /// Overrides act on what has grown: too late for other random numbers.
   bool can_change(Quantity quantity) const override { return quantity != Quantity::seed; }
 
@@ -102,7 +104,7 @@ class LsystemModel : public Model {
     derivation.set_limits(limits_of(growth.budget));
     prune(derivation, growth.prune_to, values.back());
     derivation.start(values.first(grammar_.parameters.rows.size()), seed);
-    derivation.run(derivation.settings().steps);
+    derivation.run(growth.steps == kAllSteps ? derivation.settings().steps : growth.steps);
     Settings settings = derivation.settings();
     settings.unit_m = values.back();
     build_plant(derivation.interpreted(), derivation.alphabet(), settings, plant, joints);
@@ -115,13 +117,17 @@ class LsystemModel : public Model {
   GrowthResult grow_reshaped(Worker& worker, std::span<const double> values, Seed seed,
                              const GrowthSettings& growth, Plant& plant) const {
     std::optional<GrownPlant>& grown = worker.grown;
-    if (growth.prune_to || !grown || !grown->is_of(values, seed, growth.budget)) {
+    if (growth.prune_to || !grown || !grown->is_of(values, seed, growth)) {
       grown.reset();
       JointedPlant base;
       const GrowthResult result = grow(worker.derivation, values, seed, growth, base.plant, &base.joints);
       if (!result.grown) return result;
-      grown.emplace(
-          GrownPlant{{values.begin(), values.end()}, seed, growth.budget, result, Reshaper(std::move(base))});
+      grown.emplace(GrownPlant{{values.begin(), values.end()},
+                               seed,
+                               growth.budget,
+                               growth.steps,
+                               result,
+                               Reshaper(std::move(base))});
     }
     grown->reshaper.reshape(growth.changes, growth.only_part, plant);
     const GrowthResult result = grown->result;
@@ -153,7 +159,7 @@ class LsystemModel : public Model {
       const std::lock_guard lock(mutex_);
       if (!idle_.empty()) {
         auto chosen = std::find_if(idle_.begin(), idle_.end(), [&](const auto& worker) {
-          return worker->grown && worker->grown->is_of(values, seed, growth.budget);
+          return worker->grown && worker->grown->is_of(values, seed, growth);
         });
         if (chosen == idle_.end()) --chosen;
         std::unique_ptr<Worker> worker = std::move(*chosen);

@@ -85,6 +85,15 @@ struct FieldDeclaration {
   std::size_t constants_before = 0;
 };
 
+/// function f = [0, 0.2, 1, 1] in 0 .. 1: of x from 0 to 1, by 1, 4, 5 or 7 numbers.
+struct FunctionDeclaration {
+  std::string name;
+  std::vector<double> numbers;
+  std::optional<std::size_t> first_parameter;  ///< the row of its first number; none: no search varies them
+  std::string file;                            ///< the .func file that the numbers were fitted to, or empty
+  double error = 0;                            ///< how far they are from it at most
+};
+
 struct LuaCode {
   std::string text;  ///< with line breaks before it, so that Lua counts lines as the file does
   std::string label;
@@ -107,11 +116,13 @@ struct Grammar {
   bool has_considered = false;                   ///< then only those count
   std::vector<VolumeDeclaration> volumes;
   std::vector<FieldDeclaration> fields;
+  std::vector<FunctionDeclaration> functions;
   std::vector<std::size_t> shades;  ///< volumes that keep light away
   bool has_sun = false;             ///< then sun_x, sun_y and sun_z are constants
   bool uses_light = false;
   std::shared_ptr<const Appearance> appearance;
-  bool follow_branches = false;  ///< right contexts look into branches too
+  bool follow_branches = false;        ///< right contexts look into branches too
+  std::optional<bool> leafy_segments;  ///< none: the file does not say, and they are not
 };
 
 }  // namespace espalier::lsystem

@@ -6,7 +6,9 @@
 #include <espalier/core/files.h>
 #include <espalier/lsystem/expressions/lua_words.h>
 #include <espalier/lsystem/notation/grammar.h>
+#include <espalier/lsystem/notation/headings.h>
 #include <espalier/lsystem/notation/parse_appearance.h>
+#include <espalier/lsystem/notation/parse_function.h>
 #include <espalier/lsystem/notation/parse_grammar.h>
 #include <espalier/lsystem/notation/parse_modules.h>
 #include <espalier/lsystem/notation/parse_parameter.h>
@@ -20,6 +22,8 @@ namespace espalier::lsystem {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFunctions = 1000;
 
 class Parser {
  public:
@@ -67,9 +71,11 @@ class Parser {
         {"interpretation:", &Parser::open_interpretation},
         {"lua:", &Parser::parse_lua},
         {"branches:", &Parser::parse_branches},
+        {"segments:", &Parser::parse_segments},
         {"const ", &Parser::parse_constants},
         {"param ", &Parser::parse_parameter},
         {"let ", &Parser::parse_let},
+        {"function ", &Parser::parse_function},
         {"volume ", &Parser::parse_volume},
         {"plant ", &Parser::parse_plant},
         {"field ", &Parser::parse_field},
@@ -84,7 +90,9 @@ class Parser {
     if (cursor.rest().starts_with("surface "))
       return parse_surface_declaration(cursor, may_include, *appearance_);
     if (cursor.rest().starts_with("include ")) return parse_include(cursor, may_include);
-    if (!parse_setting(cursor)) read_production(cursor);
+    if (parse_setting(cursor)) return;
+    check_heading(cursor);
+    read_production(cursor);
   }
 
   void skip(Cursor&) {}
@@ -113,6 +121,12 @@ class Parser {
   void parse_branches(Cursor& cursor) {
     grammar_.follow_branches = cursor.take("follow");
     if (!grammar_.follow_branches && !cursor.take("skip")) cursor.fail("'skip' or 'follow'");
+    if (!cursor.at_end()) cursor.fail("the end of the line");
+  }
+
+  void parse_segments(Cursor& cursor) {
+    grammar_.leafy_segments = cursor.take("leafy");
+    if (!*grammar_.leafy_segments && !cursor.take("plain")) cursor.fail("'plain' or 'leafy'");
     if (!cursor.at_end()) cursor.fail("the end of the line");
   }
 
@@ -191,6 +205,25 @@ class Parser {
     grammar_.lua.push_back({lua_code(cursor, body.position.offset, code), cursor.position().source->label});
   }
 
+  /// function f = [0, 0.2, 1, 1] in 0 .. 1
+  void parse_function(Cursor& cursor) {
+    const std::string name = new_name(cursor);
+    if (grammar_.functions.size() >= kMostFunctions)
+      throw_at(cursor.position(), "got more than {} functions, expected fewer", kMostFunctions);
+    const Position position = cursor.position();
+    std::vector<ParameterInfo> rows;
+    FunctionDeclaration function = parse_function_declaration(cursor, name, rows);
+    if (!rows.empty()) function.first_parameter = grammar_.parameters.rows.size();
+    for (ParameterInfo& row : rows) {
+      if (!taken_.insert(row.name).second)
+        throw_at(position, "got '{}' a second time, as a number of '{}', expected another name", row.name,
+                 name);
+      grammar_.parameters.rows.push_back(std::move(row));
+    }
+    grammar_.functions.push_back(std::move(function));
+    grammar_.names.curves.push_back(name);
+  }
+
   void parse_volume(Cursor& cursor) { parse_volume_declaration(cursor, new_name(cursor), grammar_); }
   void parse_field(Cursor& cursor) { parse_field_declaration(cursor, new_name(cursor), grammar_); }
   void parse_the_shades(Cursor& cursor) { parse_shades(cursor, grammar_); }
@@ -242,8 +275,8 @@ class Parser {
 
   void read_production(Cursor& cursor) {
     if (!section_ || cursor.rest().find("-->") == std::string_view::npos)
-      cursor.fail(section_ ? "a production with '-->', a setting or a keyword (see docs/lsystem.md)"
-                           : "a keyword, a setting, or 'productions:' before the first production");
+      fail_unknown(cursor, section_ ? "a production with '-->', a setting or a keyword (see docs/lsystem.md)"
+                                    : "a keyword, a setting, or 'productions:' before the first production");
     section_->push_back(parse_production(cursor, grammar_, section_->size() + 1));
     section_->back().table = table_;
   }

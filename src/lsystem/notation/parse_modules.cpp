@@ -57,8 +57,12 @@ void replace_surface_name(SuccessorModule& module, std::string_view name, const 
   if (name != "~" || module.arguments.empty()) return;
   Expression& first = module.arguments.front();
   if (first.text.size() < 2 || (first.text.front() != '"' && first.text.front() != '\'')) return;
-  first.text = std::to_string(
-      surface_by_name(first.text.substr(1, first.text.size() - 2), *grammar.appearance, first.position));
+  try {
+    first.text =
+        std::to_string(surface_by_name(first.text.substr(1, first.text.size() - 2), *grammar.appearance));
+  } catch (const InputError& error) {
+    throw_at(first.position, "{}", error.what());
+  }
 }
 
 SuccessorModule parse_successor_module(Cursor& cursor, Grammar& grammar) {

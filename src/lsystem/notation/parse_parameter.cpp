@@ -79,12 +79,10 @@ double parse_number(Cursor& cursor, std::string_view what) {
   return value;
 }
 
-ParameterInfo parse_parameter_row(Cursor& cursor, const std::string& name) {
+ParameterInfo parse_bounds_row(Cursor& cursor, const std::string& name) {
   ParameterInfo row;
   row.name = name;
-  cursor.expect("=");
   const Position position = cursor.position();
-  row.default_value = parse_number(cursor, "a number");
   cursor.expect("in");
   row.lower = row.search_lower = parse_number(cursor, "the lower bound");
   cursor.expect("..");
@@ -94,7 +92,17 @@ ParameterInfo parse_parameter_row(Cursor& cursor, const std::string& name) {
   row.free_by_default = true;
   if (!(row.lower < row.upper))
     throw_at(position, "got bounds {} .. {}, expected the lower one first", row.lower, row.upper);
-  check_value(row, row.default_value, describe(position));
+  row.default_value = (row.lower + row.upper) / 2;
+  return row;
+}
+
+ParameterInfo parse_parameter_row(Cursor& cursor, const std::string& name) {
+  cursor.expect("=");
+  const Position position = cursor.position();
+  const double value = parse_number(cursor, "a number");
+  ParameterInfo row = parse_bounds_row(cursor, name);
+  row.default_value = value;
+  check_value(row, value, describe(position));
   return row;
 }
 

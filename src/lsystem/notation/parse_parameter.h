@@ -14,6 +14,9 @@ double parse_number(Cursor& cursor, std::string_view what);
 /// is unknown.
 ParameterInfo parse_parameter_row(Cursor& cursor, const std::string& name);
 
+/// The same without a value, of which `name` is said: from "in" on; its default is the middle of the bounds.
+ParameterInfo parse_bounds_row(Cursor& cursor, const std::string& name);
+
 /// Throws InputError, pointing to `position`, where another row bears the role of `row` already, or the unit
 /// of the L-system will; only trunk_form is borne by several.
 void check_role_is_free(const ParameterTable& table, const ParameterInfo& row, const Position& position);

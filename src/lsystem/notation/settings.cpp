@@ -29,6 +29,13 @@ constexpr std::array<NotationSetting, 13> kSettings{{
 
 }  // namespace
 
+std::vector<std::string_view> setting_names() {
+  std::vector<std::string_view> names;
+  names.reserve(kSettings.size());
+  for (const NotationSetting& info : kSettings) names.push_back(info.name);
+  return names;
+}
+
 const NotationSetting* find_setting(std::string_view name) {
   for (const NotationSetting& info : kSettings)
     if (info.name == name) return &info;

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 namespace espalier::lsystem {
 
@@ -22,6 +23,7 @@ struct Settings {
   int leaf_shape = 8, blossom_shape = 1;
   double leaf_length = 1, leaf_width = 1;        ///< of a surface at scale 1, in units
   double joint = 1;                              ///< 1: joints of segments are smooth, 0: they are corners
+  bool leafy_segments = false;                   ///< the third to fifth parameters of F and G are leaves
   std::shared_ptr<const Appearance> appearance;  ///< of the grammar
 };
 
@@ -33,6 +35,9 @@ struct NotationSetting {
   double lower = 0, upper = 0;  ///< of each value
   void (*assign)(Settings&, const SettingValues&) = nullptr;
 };
+
+/// In the order of the table.
+std::vector<std::string_view> setting_names();
 
 /// nullptr where there is no such setting.
 const NotationSetting* find_setting(std::string_view name);

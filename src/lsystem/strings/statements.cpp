@@ -35,6 +35,19 @@ bool is_heading(std::string_view line) {
 
 bool is_lua(std::string_view line) { return line.substr(indentation(line)).starts_with("lua:"); }
 
+/// Whether a statement so far ends with "--> lua": what follows is the body of a production.
+bool opens_lua_body(std::string_view statement) {
+  const auto trim = [&] {
+    while (!statement.empty() && (is_blank(statement.back()) || statement.back() == '\n'))
+      statement.remove_suffix(1);
+  };
+  trim();
+  if (!statement.ends_with("lua")) return false;
+  statement.remove_suffix(3);
+  trim();
+  return statement.ends_with("-->");
+}
+
 /// Joins lines to statements.
 class Splitter {
  public:
@@ -42,7 +55,8 @@ class Splitter {
 
   void add(std::size_t begin, std::string_view raw) {
     const bool goes_on = open_ && indentation(raw) > indentation_;
-    const std::string_view line = goes_on && in_lua_ ? raw : raw.substr(0, comment_start(raw));
+    const bool is_code = goes_on ? in_lua_ : is_lua(raw);
+    const std::string_view line = is_code ? raw : raw.substr(0, comment_start(raw));
     if (indentation(line) == line.size()) return;  // empty, or only a comment
     if (!goes_on) {
       file_.statements.push_back({begin + indentation(line), 0});
@@ -50,8 +64,11 @@ class Splitter {
       indentation_ = indentation(line);
       in_lua_ = is_lua(line);
     }
-    file_.statements.back().end = begin + line.size();
+    Statement& statement = file_.statements.back();
+    statement.end = begin + line.size();
     std::copy(line.begin(), line.end(), file_.clean.begin() + static_cast<std::ptrdiff_t>(begin));
+    const std::string_view clean = file_.clean;
+    in_lua_ = in_lua_ || opens_lua_body(clean.substr(statement.begin, statement.end - statement.begin));
   }
 
  private:

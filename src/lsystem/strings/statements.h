@@ -1,7 +1,7 @@
 // The lines of an L-system file as statements. A statement goes on in the lines below it that are indented
 // deeper than its first one; headings such as "productions:" end with their line. A comment is a # at the
 // start of a line or after a space, followed by a space or the end of the line (the symbol # of a string
-// has neither around it).
+// has neither around it). Lua code has Lua's comments, because # is an operator there.
 #pragma once
 #include <memory>
 #include <string>

@@ -16,9 +16,12 @@ void check_arity(std::string_view name, std::size_t arity) {
   const int count = static_cast<int>(arity);
   if (is_color && count == 2)
     throw_input_error("module {}: got 2 parameters, the turtle expects 0, 1 or 3", name);
-  if (count < info->least || count > info->most)
-    throw_input_error("module {}: got {} parameters, the turtle expects {} to {}", name, count, info->least,
-                      info->most);
+  if (count >= info->least && (count <= info->most || info->ignores_more)) return;
+  throw_input_error("module {}: got {} parameters, the turtle expects {}", name, count,
+                    info->ignores_more         ? fmt::format("at least {}", info->least)
+                    : info->least < info->most ? fmt::format("{} to {}", info->least, info->most)
+                    : info->least == 0         ? "none"
+                                               : fmt::format("{}", info->least));
 }
 
 std::vector<Command> commands_of(const SymbolTable& alphabet) {

@@ -55,12 +55,14 @@ struct CommandInfo {
   std::string_view symbol, other_symbol;  ///< the second may be empty
   int least = 0, most = 0;                ///< numbers of parameters
   std::string_view parameters, help;
+  bool ignores_more =
+      true;  ///< further parameters are a model's own, as in cpfg and L-Py; else they are refused
 };
 
 /// A row a command but `none`, in the order of Command.
 inline constexpr std::array<CommandInfo, kCommandCount - 1> kCommands{{
     {Command::draw, "F", "", 0, 5, "length, width, leaves, down, roll",
-     "draw a segment, with leaves along it [CH §3.1.2]"},
+     "draw a segment; where segments are leafy, with leaves along it [CH §3.1.2]"},
     {Command::draw_unrecorded, "G", "", 0, 5, "length, width, leaves, down, roll",
      "the same, without a vertex of a polygon"},
     {Command::move, "f", "", 0, 1, "length", "move without drawing"},
@@ -73,9 +75,9 @@ inline constexpr std::array<CommandInfo, kCommandCount - 1> kCommands{{
     {Command::turn_around, "|", "", 0, 0, "", "turn around"},
     {Command::level, "$", "", 0, 0, "", "roll until L is horizontal"},
     {Command::look_at, "@", "", 3, 3, "x, y, z", "look at a point"},
-    {Command::open, "[", "", 0, 0, "", "begin a branch"},
-    {Command::close, "]", "", 0, 0, "", "end a branch"},
-    {Command::cut, "%", "", 0, 0, "", "cut: erase the rest of the branch, as soon as it is produced"},
+    {Command::open, "[", "", 0, 0, "", "begin a branch", false},
+    {Command::close, "]", "", 0, 0, "", "end a branch", false},
+    {Command::cut, "%", "", 0, 0, "", "cut: erase the rest of the branch, as soon as it is produced", false},
     {Command::narrower, "!", "", 0, 1, "width", "set the width; without a parameter, make it narrower"},
     {Command::wider, "_", "", 0, 1, "width", "set the width; without a parameter, make it wider"},
     {Command::polygon_open, "{", "", 0, 0, "",
@@ -83,18 +85,19 @@ inline constexpr std::array<CommandInfo, kCommandCount - 1> kCommands{{
     {Command::vertex, ".", "", 0, 0, "", "a vertex of the polygon"},
     {Command::polygon_close, "}", "", 0, 0, "", "end the polygon"},
     {Command::surface, "~", "", 1, 3, "\"leaf\", scale, width",
-     "a predefined surface (\"leaf\", \"blossom\", \"maple\", …), see below"},
+     "a predefined surface (\"leaf\", \"blossom\", \"maple\", …), see below", false},
     {Command::sphere, "@o", "", 0, 1, "diameter", "a ball"},
     {Command::next_color, ";", "'", 0, 3, "n",
-     "the next colour of the table; colour n, 0 that of the material; or red, green, blue, 0 to 1"},
-    {Command::previous_color, ",", "", 0, 3, "n", "the previous colour of the table, or as before"},
+     "the next colour of the table; colour n, 0 that of the material; or red, green, blue, 0 to 1", false},
+    {Command::previous_color, ",", "", 0, 3, "n", "the previous colour of the table, or as before", false},
     {Command::open_edge, "?", "", 0, 1, "k",
      "the start of an edge between nodes: with the segments between them it bounds a polygon, see below"},
     {Command::close_edge, "#", "", 0, 1, "k", "the end of that edge"},
-    {Command::query_position, "?P", "", 2, 3, "x, y, z", "becomes the turtle's position, see Productions"},
-    {Command::query_heading, "?H", "", 2, 3, "x, y, z", "becomes its heading"},
-    {Command::query_up, "?U", "", 2, 3, "x, y, z", "becomes its up vector"},
-    {Command::query_left, "?L", "", 2, 3, "x, y, z", "becomes its left vector"},
+    {Command::query_position, "?P", "", 2, 3, "x, y, z", "becomes the turtle's position, see Productions",
+     false},
+    {Command::query_heading, "?H", "", 2, 3, "x, y, z", "becomes its heading", false},
+    {Command::query_up, "?U", "", 2, 3, "x, y, z", "becomes its up vector", false},
+    {Command::query_left, "?L", "", 2, 3, "x, y, z", "becomes its left vector", false},
 }};
 
 consteval bool commands_are_in_order() {

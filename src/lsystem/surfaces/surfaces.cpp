@@ -45,7 +45,7 @@ std::string file_text(const std::string& file, const Position& position) {
 
 }  // namespace
 
-int surface_by_name(std::string_view name, const Appearance& appearance, const Position& position) {
+int surface_by_name(std::string_view name, const Appearance& appearance) {
   const auto built_in = std::find(kNames.begin(), kNames.end(), name);
   if (built_in != kNames.end()) return static_cast<int>(built_in - kNames.begin());
   std::vector<std::string> known(kNames.begin(), kNames.end());
@@ -53,8 +53,8 @@ int surface_by_name(std::string_view name, const Appearance& appearance, const P
     if (appearance.surfaces[i].name == name) return kFirstOwnSurface + static_cast<int>(i);
     known.push_back(appearance.surfaces[i].name);
   }
-  throw_at(position, "got surface '{}', expected one of this file or a built-in one, the closest is \"{}\"",
-           name, closest_name(std::string(name), known));
+  throw_input_error("got surface '{}', expected one of this file or a built-in one, the closest is \"{}\"",
+                    one_line(std::string(name)), closest_name(std::string(name), known));
 }
 
 std::vector<Triangle> outline_triangles(int surface) {

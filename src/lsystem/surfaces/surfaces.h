@@ -19,8 +19,8 @@ enum Surface : int {
   kFirstOwnSurface = kFirstBlossomOutline + static_cast<int>(kBlossomShapes.size()),
 };
 
-/// The number that stands for a surface in a string. Throws InputError at `position` for an unknown name.
-int surface_by_name(std::string_view name, const Appearance& appearance, const Position& position);
+/// The number that stands for a surface in a string. Throws InputError for an unknown name.
+int surface_by_name(std::string_view name, const Appearance& appearance);
 
 /// The triangles of an outline, kFirstLeafOutline and up, at unit size.
 std::vector<Triangle> outline_triangles(int surface);

@@ -19,7 +19,7 @@ float half_base() {
 
 void add_triangle(const ColoredTriangle& colored, float half_base, Leaves& leaves,
                   std::vector<std::uint32_t>& organs) {
-  const auto& [triangle, color, organ] = colored;
+  const auto& [triangle, color, organ, is_plain] = colored;
   const Vec3 foot = (triangle[0] + triangle[1]) * 0.5f;
   const Vec3 side = triangle[1] - foot, axis = triangle[2] - foot;
   if (!(length(cross(side, axis)) > 0)) return;
@@ -30,6 +30,7 @@ void add_triangle(const ColoredTriangle& colored, float half_base, Leaves& leave
   leaves.width_m.push_back(length(side) / half_base);
   leaves.kind.push_back(LeafKind::leaf);
   leaves.color.push_back(color);
+  leaves.shade.push_back(is_plain ? kPlainShade : organ);
   organs.push_back(organ);
 }
 
@@ -59,16 +60,19 @@ void draw_as_triangles(const std::vector<ColoredTriangle>& triangles, Plant& pla
   for (std::size_t i = 0; i < old.size(); ++i) {
     if (old.kind[i] == LeafKind::blossom) {
       copy_leaf(old, i, leaves);
+      leaves.shade.push_back(organ_of_leaf[i]);
       organs.push_back(organ_of_leaf[i]);
       continue;
     }
     const auto place = [&](const Vec3& v) {
       return old.position_m[i] + old.side[i] * (v.x * old.width_m[i]) + old.axis[i] * (v.y * old.length_m[i]);
     };
+    const bool is_plain = i < old.shade.size() && old.shade[i] == kPlainShade;
     for (const auto& [a, b, c] : outline.triangles)
       add_triangle({{place(outline.vertices[a]), place(outline.vertices[b]), place(outline.vertices[c])},
                     color_of(old, i),
-                    organ_of_leaf[i]},
+                    organ_of_leaf[i],
+                    is_plain},
                    half, leaves, organs);
   }
   for (const ColoredTriangle& triangle : triangles) add_triangle(triangle, half, leaves, organs);

@@ -81,7 +81,9 @@ Surface SurfaceFinder::stem_surface(Vec3 point, unsigned primitive) const {
 Surface SurfaceFinder::leaf_surface(std::uint32_t leaf, bool is_blossom) const {
   if (const auto color = color_of(plant_.leaves.color, leaf))
     return {{}, {}, *color, *color * kLeafTransmission};
-  const RandomKey key = child_key({0x6c656166}, leaf);
+  const std::uint32_t shade = leaf < plant_.leaves.shade.size() ? plant_.leaves.shade[leaf] : leaf;
+  if (shade == kPlainShade && !is_blossom) return {{}, {}, settings_.leaf, settings_.leaf_through};
+  const RandomKey key = child_key({0x6c656166}, shade);
   const float brightness = 1 + 0.25f * uniform_signed(key, kLeafBrightness);
   if (is_blossom) return {{}, {}, settings_.blossom * brightness, settings_.blossom * (0.4f * brightness)};
   const float yellowness = 0.25f * uniform_signed(key, kLeafHue);

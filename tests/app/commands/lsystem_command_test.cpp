@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -46,6 +48,72 @@ TEST(LsystemCommand, DrawsAnAnimation) {
   EXPECT_EQ(bytes.substr(0, 6), "GIF89a");
   EXPECT_NE(bytes.find("NETSCAPE2.0"), std::string::npos);  // it repeats
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+}
+
+/// A film of growth ends in the picture that is drawn without it, also where the file counts on its end.
+TEST(LsystemCommand, ASequenceEndsInThePicture) {
+  const fs::path folder = fresh_folder("lsystem_end");
+  const fs::path file = write_lsystem(
+      folder, "ends.lsys",
+      "steps: 4\naxiom: A\nlua:\n  ended = 0\n  function on_end() ended = 1 end\nproductions:\n"
+      "  A : ended == 0 --> F[+(30)F]A\ninterpretation:\n  A : ended == 1 --> ~(\"blossom\", 1)\n");
+  for (const int frames : {1, 3, 9}) {
+    const std::string start =
+        fmt::format("lsystem '{}' --size 40 --samples 1 -o '{}/", file.string(), folder.string());
+    EXPECT_EQ(run_espalier(start + "one.png'").exit_code, 0);
+    EXPECT_EQ(run_espalier(fmt::format("{}f.png' --frames {}", start, frames)).exit_code, 0);
+    EXPECT_EQ(read_text_file((folder / fmt::format("f_{:03}.png", frames - 1)).string()),
+              read_text_file((folder / "one.png").string()))
+        << frames;
+  }
+}
+
+TEST(LsystemCommand, ListsTheBundledOnes) {
+  const ProgramRun run = run_espalier("lsystem --list");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("\nfern                     A fern: nine axes"), std::string::npos) << run.out;
+  EXPECT_EQ(static_cast<std::size_t>(std::count(run.out.begin(), run.out.end(), '\n')),
+            static_cast<std::size_t>(
+                std::count_if(fs::directory_iterator(ESPALIER_SOURCE_DIR "/src/lsystem/models"), {},
+                              [](const auto& entry) { return entry.path().extension() == ".lsys"; })));
+}
+
+TEST(LsystemCommand, SaysWhereThereIsNoParameterToSet) {
+  const fs::path folder = fresh_folder("lsystem_no_parameter");
+  const fs::path file = write_lsystem(folder, "plain.lsys", "axiom: F\n");
+  const ProgramRun run = run_espalier("lsystem '" + file.string() + "' --string --set x=1");
+  expect_one_clear_error(run);
+  EXPECT_NE(run.err.find("--set: got 'x', expected none: plain has no parameters"), std::string::npos)
+      << run.err;
+}
+
+TEST(LsystemCommand, WarnsOfNumbersThatWereLeaves) {
+  const fs::path folder = fresh_folder("lsystem_leaves");
+  const fs::path file = write_lsystem(folder, "old.lsys", "axiom: F(1,0.1,3)\n"),
+                 plain = write_lsystem(folder, "plain.lsys", "segments: plain\naxiom: F(1,0.1,3)\n");
+  const ProgramRun run = run_espalier("lsystem '" + file.string() + "' --string");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_NE(run.err.find("old: F has 3 parameters, of which length and width are drawn"), std::string::npos);
+  EXPECT_EQ(run_espalier("lsystem '" + plain.string() + "' --string").err, "");
+}
+
+TEST(LsystemCommand, StepsAreThoseOfOtherCommandsToo) {
+  const fs::path folder = fresh_folder("lsystem_steps");
+  const auto in_folder = [&](const char* name) { return "'" + (folder / name).string() + "'"; };
+  const std::string size = " --size 40 --samples 1 -o ";
+  EXPECT_EQ(run_espalier("lsystem raceme --steps 6" + size + in_folder("a.png")).exit_code, 0);
+  const ProgramRun render = run_espalier("render raceme.lsys --steps 6" + size + in_folder("b.png"));
+  EXPECT_EQ(render.exit_code, 0) << render.err;
+  EXPECT_EQ(read_text_file((folder / "a.png").string()), read_text_file((folder / "b.png").string()));
+  const ProgramRun none = run_espalier("mesh raceme.lsys --steps 0 -o " + in_folder("c.obj")),
+                   tree = run_espalier("mesh apple --steps 3 -o " + in_folder("d.obj"));
+  expect_one_clear_error(tree);
+  EXPECT_NE(tree.err.find("apple: got 3 steps, expected none"), std::string::npos) << tree.err;
+  EXPECT_FALSE(fs::exists(folder / "d.obj"));
+  expect_one_clear_error(run_espalier("mesh raceme.lsys --steps=-1 -o " + in_folder("c.obj")));
+  for (const char* command : {"mesh", "render", "mask"})
+    EXPECT_NE(run_espalier(std::string(command) + " --help").out.find(".lsys file"), std::string::npos)
+        << command;
 }
 
 TEST(LsystemCommand, ReadsSurfacesOfTheSameFolder) {

@@ -137,6 +137,25 @@ TEST(SearchSpace, PatternsNameLevelsAndGroups) {
   EXPECT_EQ(space_of({"prune*"}).dimension(), 5u);
 }
 
+TEST(SearchSpace, SaysWhereAModelHasNothingToSearch) {
+  ParameterTable table{"stick.lsys", {{.name = "unit", .role = {Role::length_unit}}}};
+  const auto message = [&](const SearchChoice& choice) -> std::string {
+    try {
+      make_search_space(table, table.defaults(), choice, 1);
+      return "no error";
+    } catch (const FieldError& error) {
+      return error.field;
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(message({}),
+            "stick.lsys: got a model without parameters to search, expected at least one, in an L-system a "
+            "line such "
+            "as 'param spread = 30 in 10 .. 60 deg'; its size alone is searched with --free unit");
+  EXPECT_EQ(message({{"unit"}, {}}), "no error");
+}
+
 TEST(SearchSpace, NamesTheClosestParameterForUnknownNames) {
   EXPECT_THAT(error_of({{"g_scal"}, {}}), HasSubstr("closest is 'g_scale'"));
   EXPECT_THAT(error_of({{}, {{"ratoi", 1.0}}}), HasSubstr("closest is 'ratio'"));

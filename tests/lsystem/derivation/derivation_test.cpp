@@ -190,5 +190,20 @@ TEST(Derivation, AModuleWithOneParameterTakesTenBytes) {
   EXPECT_EQ(derivation.string().memory_bytes(), 50000 * 10u);
 }
 
+TEST(Derivation, EndsWhenItIsRunAndNotWhileItAdvances) {
+  const Grammar grammar = parse_grammar(
+      "axiom: A\nlua:\n  ended = 0\n  function on_end() ended = 1 end\nproductions:\n  A : ended == 0 --> "
+      "FA\n",
+      "test.lsys");
+  Derivation derivation(grammar);
+  derivation.start(1);
+  derivation.advance(2);
+  derivation.advance(3);
+  EXPECT_EQ(derivation.text(), "FFFA");
+  derivation.run(3);
+  derivation.advance(5);
+  EXPECT_EQ(derivation.text(), "FFFA");
+}
+
 }  // namespace
 }  // namespace espalier::lsystem

@@ -1,7 +1,9 @@
 // Laws of drawing: where the turtle goes, and what of it becomes stems and leaves.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <espalier/lsystem/drawing/plant_builder.h>
 #include <espalier/lsystem/files/grammar_file.h>
@@ -92,13 +94,47 @@ TEST(PlantBuilder, PolygonsHaveTheirArea) {
 }
 
 TEST(PlantBuilder, SegmentsCarryLeaves) {
-  const Plant plant = plant_of("axiom: F(2,0.1,4,30,90)\n");
+  const Plant plant = plant_of("segments: leafy\naxiom: F(2,0.1,4,30,90)\n");
   ASSERT_EQ(plant.leaves.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_NEAR(plant.leaves.position_m[i].z, 0.5 * static_cast<double>(i + 1), 1e-5);
     EXPECT_NEAR(std::acos(plant.leaves.axis[i].z) * 180 / M_PI, 30, 1e-2);
   }
   EXPECT_NEAR(dot(plant.leaves.side[0], plant.leaves.side[1]), 0, 1e-5);
+}
+
+// cpfg and L-Py have models with ages there: leaves grow only where the file says so.
+TEST(PlantBuilder, SegmentsArePlainUnlessTheFileSaysOtherwise) {
+  for (const char* head : {"", "segments: plain\n"}) {
+    const Plant plant = plant_of(fmt::format("{}axiom: F(1,0.1,3)G(1,0.2,3)\n", head));
+    EXPECT_EQ(plant.leaves.size(), 0u);
+    EXPECT_EQ(plant.knots.size(), 3u);
+    EXPECT_FLOAT_EQ(plant.knots.radius_m.back(), 0.1f);
+  }
+  EXPECT_EQ(plant_of("segments: leafy\naxiom: F(1,0.1,3)G(1,0.2,3)\n").leaves.size(), 6u);
+}
+
+TEST(PlantBuilder, MoreParametersOfASymbolChangeNothing) {
+  const Plant plant =
+                  plant_of("axiom: F+(30,7)F(2,0.1,9,9,9,9)!(0.2,5)/(90,1)-(20,1,2)F|(3)f(1,8)F@o(0.3,4)\n"),
+              plain = plant_of("axiom: F+(30)F(2,0.1)!(0.2)/(90)-(20)F|f(1)F@o(0.3)\n");
+  EXPECT_EQ(plant.knots.point_m, plain.knots.point_m);
+  EXPECT_EQ(plant.knots.radius_m, plain.knots.radius_m);
+}
+
+TEST(PlantBuilder, TrianglesOfOneLeafHaveOneShade) {
+  // A polygon of several triangles, two more that are one leaf with it, and two surfaces.
+  const Plant plant =
+      plant_of("angle: 22.5\naxiom: {-F+F+F-|-F+F+F}[{.F+(90)F}]{.F-(90)F}~(\"maple\")F~(\"leaf\")\n");
+  ASSERT_EQ(plant.leaves.shade.size(), plant.leaves.size());
+  const std::size_t polygons =
+      static_cast<std::size_t>(std::count(plant.leaves.shade.begin(), plant.leaves.shade.end(), kPlainShade));
+  EXPECT_EQ(polygons, 4u + 1 + 1);
+  std::set<std::uint32_t> others(plant.leaves.shade.begin(), plant.leaves.shade.end());
+  others.erase(kPlainShade);
+  EXPECT_EQ(others.size(), 2u);
+  EXPECT_GT(plant.leaves.size(), polygons + 2);
+  EXPECT_TRUE(plant_of("axiom: F~(\"leaf\")F~(\"leaf\")\n").leaves.shade.empty());
 }
 
 TEST(PlantBuilder, SurfacesStandWhereTheTurtleIs) {
@@ -149,7 +185,7 @@ TEST(PlantBuilder, TrianglesOfASurfaceAreOneOrgan) {
 }
 
 TEST(PlantBuilder, LeavesAlongASegmentHangBetweenItsKnots) {
-  const JointedPlant grown = jointed_plant_of("axiom: FF(1,0.1,4)\n");
+  const JointedPlant grown = jointed_plant_of("segments: leafy\naxiom: FF(1,0.1,4)\n");
   ASSERT_EQ(grown.joints.organs.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(grown.joints.organs[i].place.knot, 1u);

@@ -92,6 +92,16 @@ TEST_F(Copies, AreWhatTheirStringWouldDrawInTheirPlace) {
   expect_same(joints, written_joints);
 }
 
+TEST_F(Copies, HaveTheShadesOfTheirPolygons) {
+  write("blade.lsys", "leaf_shape: 10\naxiom: {.F+(60)F+(60)F+(60)F}\n");
+  for (const char* head : {"leaf_shape: 10\n", "leaf_shape: 3\n"}) {
+    const Plant plant =
+        plant_of(std::string(head) + "plant blade = \"blade.lsys\"\naxiom: ~(\"blade\")F~(\"leaf\")\n");
+    ASSERT_EQ(plant.leaves.shade.size(), plant.leaves.size());
+    EXPECT_EQ(std::count(plant.leaves.shade.begin(), plant.leaves.shade.end(), kPlainShade), 3);
+  }
+}
+
 TEST_F(Copies, TakeParametersAndSeeds) {
   write("twig.lsys", kTwig);
   const Plant straight = plant_of("plant a = \"twig.lsys\" turn=0\naxiom: ~(\"a\")\n");

@@ -83,8 +83,8 @@ bool same(const Plant& a, const Plant& b) {
          a.knots.color == b.knots.color && a.leaves.position_m == b.leaves.position_m &&
          a.leaves.axis == b.leaves.axis && a.leaves.side == b.leaves.side &&
          a.leaves.length_m == b.leaves.length_m && a.leaves.width_m == b.leaves.width_m &&
-         a.leaves.kind == b.leaves.kind && a.leaves.color == b.leaves.color && a.leaf_shape == b.leaf_shape &&
-         a.tree_scale_m == b.tree_scale_m;
+         a.leaves.kind == b.leaves.kind && a.leaves.color == b.leaves.color &&
+         a.leaves.shade == b.leaves.shade && a.leaf_shape == b.leaf_shape && a.tree_scale_m == b.tree_scale_m;
 }
 
 TEST(LsystemModel, OverridesThatChangeNothingLeaveThePlantAsItIs) {

@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"axiom: A\nproductions:\n A[B] < C --> C\n", "bracket in the left context"},
         Fault{"axiom: A\nproductions:\n A(x+1) --> C\n", "bad.lsys:3:5: got '+', expected ')'"},
         Fault{"axiom: A\nproductions:\n A(x) : --> C\n", "expected a condition"},
-        Fault{"angel: 90\naxiom: A\n", "bad.lsys:1:1: got 'a', expected a keyword"},
+        Fault{"angel: 90\naxiom: A\n", "bad.lsys:1:1: got 'angel:', expected a keyword"},
         Fault{"angle: 1, 2\naxiom: A\n", "bad.lsys:1:1: setting 'angle': got 2 values, expected 1"},
         Fault{"leaf_shape: 11\naxiom: A\n", "setting 'leaf_shape': got 11, expected 0 to 10"},
         Fault{"param a = 5 in 0 .. 1\naxiom: A\n", "5"},
@@ -95,11 +95,10 @@ INSTANTIATE_TEST_SUITE_P(
               "module A: p2 and p1 (bad.lsys:3:2) both apply"},
         Fault{"axiom: A\nproductions:\n p1: A --> B : 0\n p2: A --> C\n",
               "module A: p2 and p1 (bad.lsys:3:2) both apply"},
-        Fault{"axiom: F(1,2,3,4,5,6)\n",
-              "bad.lsys:1:8: module F: got 6 parameters, the turtle expects 0 to 5"},
+        Fault{"axiom: ?P(1,2,3,4)\n", "bad.lsys:1:8: module ?P: got 4 parameters, the turtle expects 2 to 3"},
         Fault{"axiom: A\nproductions:\n p1: A --> @(1,2)\n",
-              "bad.lsys:3:12: module @: got 2 parameters, the turtle expects 3 to 3"},
-        Fault{"axiom: A\nproductions:\n p1: A --> lua\n   produce('|', 1)\n", "bad.lsys:3:2: p1, module A"},
+              "bad.lsys:3:12: module @: got 2 parameters, the turtle expects at least 3"},
+        Fault{"axiom: A\nproductions:\n p1: A --> lua\n   produce('%', 1)\n", "bad.lsys:3:2: p1, module A"},
         Fault{"let f(a,b) = a + b\naxiom: A(1)\nproductions:\n p1: A(x) --> A(f(x))\n", "bad.lsys:4:"},
         Fault{"axiom: A(1)\nproductions:\n p1: A(x) --> A(sqrt())\n", "bad.lsys:3:"},
         Fault{"axiom: A(1)\nproductions:\n p1: A(x) --> +(sqrt(0-x))\n",
@@ -108,7 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"axiom: A(sqrt(1,2))\n", "bad.lsys:1:10: 'sqrt(1,2)': sqrt: got 2 arguments, expected 1"},
         Fault{"axiom: A(max())\n", "max: got no arguments"}, Fault{"axiom: f(1e300)F\n", "too far away"},
         Fault{"axiom: F(1,1e300)\n", "too large"}, Fault{"axiom: f(1e300)~('leaf')\n", "too far away"},
-        Fault{"axiom: F(1,1,1e9)\n", "got 1000000000 leaves on a segment, expected at most 1000"},
+        Fault{"segments: leafy\naxiom: F(1,1,1e9)\n",
+              "got 1000000000 leaves on a segment, expected at most 1000"},
         Fault{"axiom: A\nproductions:\n p1: A : nothing(1) --> B\n",
               "bad.lsys:3:10: 'nothing(1)': got the unknown name"},
         Fault{"axiom: A}\n", "bad.lsys: module 1 of the string: got '}', expected a '{' before it"},
@@ -123,7 +123,61 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"axiom: A\nproductions:\n p1: A --> lua\n   produce('[')\n", "got 1 '[' without ']'"},
         Fault{"axiom: A\nproductions:\n p1: A --> lua\n   produce(']')\n", "got ']', expected a '['"},
         Fault{"axiom: A\nproductions:\n p1: A --> lua\n   produce('F', 0/0)\n", "expected a finite number"},
-        Fault{"axiom: A\nproductions:\n p1: A --> lua\n   nothing.here = 1\n", "bad.lsys:4:"}));
+        Fault{"axiom: A\nproductions:\n p1: A --> lua\n   nothing.here = 1\n", "bad.lsys:4:"},
+        Fault{"axiom: A\nproductions:\n p1: A --> lua\n   for i = 1, 2 do produce('F')\n", "bad.lsys:4:"},
+        Fault{"axiom: A\nproductions:\n p1: A --> lua\n   if true then\n     produce('F')\n\n",
+              "bad.lsys:5:"},
+        Fault{"axiom: A\nproductions:\n p1: A --> lua\n   produce('F') end\n", "bad.lsys:4:"},
+        Fault{"axiom: A\nproductions:\n p1: A --> lua\n   # no comment of Lua\n   produce('F')\n",
+              "bad.lsys:4:"},
+        Fault{"axiom: A\nproductions:\n p1: A --> lua\n   produce('~', 'laef', 1)\n",
+              "bad.lsys:3:2: p1, module A: got surface 'laef', expected one of this file or a built-in one, "
+              "the "
+              "closest is \"leaf\""},
+        Fault{"axiom: A\nproductions:\n p1: A --> lua\n   produce('~')\n", "module ~: got 0 parameters"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Headings, BadFiles,
+    testing::Values(
+        Fault{"axiom: A\nproductions:\n A --> B\nhomomorphism:\n  B --> F\n",
+              "bad.lsys:4:1: got the unknown heading 'homomorphism', expected productions, interpretation, "
+              "table "
+              "or lua, the closest is 'interpretation'"},
+        Fault{"axiom: A\nproductions:\n A --> B\nhomomorphism:\n  B --> F\n  A --> F\n",
+              "bad.lsys:4:1: got the unknown heading 'homomorphism'"},
+        Fault{"axiom: A\nproductions:\n A --> B\nhomomorphism: B --> F\n", "the closest is 'interpretation'"},
+        Fault{"axiom: A\nproductions:\n A --> B\ndecomposition:\n  B --> F\n",
+              "the closest is 'productions'"},
+        Fault{"axiom: A\nproductions:\n A --> B\ninterpretations:\n  B --> F\n",
+              "unknown heading 'interpretations', expected productions, interpretation, table or lua, the "
+              "closest "
+              "is 'interpretation'"},
+        Fault{"axiom: A\nproductions:\n A --> B\nIntrepretation:\nB --> F\n",
+              "the closest is 'interpretation'"},
+        Fault{"axiom: A\nproduction:\n  A --> B\n", "bad.lsys:2:1: got the unknown heading 'production'"},
+        Fault{"axiom: A\nproductions :\n  A --> B\n", "bad.lsys:2:1: got the unknown heading 'productions'"},
+        Fault{"axiom: A\nproductions:\n A --> B\ntabel late when step > 2:\n  B --> F\n",
+              "bad.lsys:4:1: got the unknown heading 'tabel'"},
+        Fault{"axiom: A\nproductions:\n A --> B\nStartEach:\n  x = 1\n",
+              "got the unknown heading 'StartEach'"},
+        Fault{"derivation length: 3\naxiom: A\n",
+              "bad.lsys:1:1: got 'derivation length:', expected a keyword"},
+        Fault{"axiom: A\nproductions:\n A --> B\nhomomorphism\n  B --> F\n",
+              "bad.lsys:4:1: got the unknown heading 'homomorphism'"},
+        Fault{"derivation length: 3\naxiom: A\n", "the closest is 'steps'"},
+        Fault{"Axiom: A\n", "the closest is 'axiom'"},
+        Fault{"axiom: A\nproductions:\n A --> B\nsegmants: leafy\n", "the closest is 'segments'"},
+        Fault{"axiom: A\nsegments: green\n", "bad.lsys:2:11: got 'g', expected 'plain' or 'leafy'"}));
+
+// A colon follows an id at once, with its production beside it; that of a condition may end a line.
+TEST(GoodFiles, IdsAndConditionsAreNoHeadings) {
+  EXPECT_EQ(message_of("axiom: A(1)\nproductions:\n  shade1: A(x) :\n      x > 9 --> B\n"
+                       "  table_2: A(x) : x <= 9\n      --> C\n"),
+            "no error");
+  EXPECT_EQ(message_of("symbols: Product Production\naxiom: Production\nproductions:\n"
+                       "  Production : step > 1 --> Product\n  product: Product --> A\n"),
+            "no error");
+}
 
 TEST(Sandbox, HasNoWayOut) {
   for (const char* name :

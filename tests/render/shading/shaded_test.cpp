@@ -104,6 +104,22 @@ TEST(Shaded, AnyNumberOfThreadsGivesTheSameBits) {
   EXPECT_EQ(one.pixels, three.pixels);
 }
 
+TEST(Shaded, LeavesOfOneShadeLookAlike) {
+  Plant plant;
+  plant.leaf_shape = 9;
+  for (const float x : {-2.0f, 2.0f}) add_leaf(plant, {x, 0, 0}, {0, 0, 1}, {1, 0, 0}, 2, 2);
+  const Camera camera = camera_of(plant, 32);
+  const auto difference = [&](std::vector<std::uint32_t> shade) {
+    plant.leaves.shade = std::move(shade);
+    const Picture picture = render_shaded(plant, camera);
+    const Rgb a = picture.at(5, 16), b = picture.at(26, 16);
+    return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b);
+  };
+  EXPECT_LT(3 * difference({7, 7}), difference({}));
+  EXPECT_LT(3 * difference({kPlainShade, kPlainShade}), difference({}));
+  EXPECT_EQ(difference({0, 1}), difference({}));
+}
+
 TEST(Shaded, PartsHaveTheColorsThatTheModelGaveThem) {
   Plant leaf = screen({1, 0, 0});
   leaf.leaves.color = {{255, 0, 0, true}};
