@@ -20,7 +20,7 @@ CAPTIONS = {
     "convergence": "Best fitness so far over true evaluations (plants grown and compared): median of all runs; bands "
                    "between the quartiles (where there are many methods, of the best three). "
                    "The methods with the best mean ranks are in colour.",
-    "convergence_targets": "The same for each target.",
+    "convergence_targets": "The same for each target. Grey band, where there is one: what was published.",
     "data_profile": "Share of all (target, seed, level) that a method has reached within so many evaluations. Levels "
                     "lie between the median fitness of the first evaluations and the best that any run reached.",
     "ranks": "Mean ranks over the targets, by {measure}. Methods that a vertical bar joins do not differ significantly "

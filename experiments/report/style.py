@@ -79,8 +79,8 @@ def stands_out(style):
     return style["color"] != GREY
 
 
-def add_legend(target, names, styles, **place):
-    """The lines that stand out by name, in order, and one entry for the grey ones."""
+def add_legend(target, names, styles, published=None, **place):
+    """The lines that stand out by name, in order, one entry for the grey ones, and what draw_published() drew."""
     from matplotlib.lines import Line2D
     shown = [name for name in names if stands_out(styles[name])]
     lines = [Line2D([], [], **{k: v for k, v in styles[name].items() if k != "zorder"}) for name in shown]
@@ -88,6 +88,9 @@ def add_legend(target, names, styles, **place):
     if others:
         lines.append(Line2D([], [], color=GREY, linewidth=0.7))
         shown.append(f"{others} others")
+    if published:
+        lines.append(published[0])
+        shown.append(published[1])
     return target.legend(lines, shown, handlelength=3, **place)
 
 
@@ -107,3 +110,13 @@ def panels(count, width=3.2, height=2.3, columns=4, **options):
     for axis in flat[count:]:
         axis.remove()
     return figure, flat[:count]
+
+
+def draw_published(panels, meta, scale=1):
+    """The range of fitness that the source found, as grey bands; (patch, label), or nothing where none is known."""
+    published = meta.get("published_fitness")
+    if not published:
+        return None
+    low, high = published
+    bands = [panel.axhspan(scale * low, scale * high, color=GREY, alpha=0.35, linewidth=0, zorder=0) for panel in panels]
+    return bands[0], f"published: {100 * low:g}–{100 * high:g} %"

@@ -50,9 +50,10 @@ def draw_targets(targets, names, meta):
         style.log_axis(panel.xaxis)
         panel.set_title(target, loc="left")
         panel.tick_params(labelsize=8)
+    published = style.draw_published(axes, meta)
     figure.supxlabel("evaluations", fontsize=10)
     figure.supylabel(style.fitness_label(meta), fontsize=10)
-    style.add_legend(figure, names, styles, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=4)
+    style.add_legend(figure, names, styles, published, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=4)
     return figure
 
 

@@ -28,7 +28,7 @@ def draw(directory, meta):
         panel.set_ylabel("pixel accuracy (%)" if meta.get("objective") == "pixel_accuracy"
                          else style.fitness_label(meta) + " (%)")
     axes[0].set_ylim(*limits(rows))
-    add_legend(figure, draw_published(axes, meta), names, styles)
+    add_legend(figure, style.draw_published(axes, meta, scale=100), names, styles)
     return {"generations": figure}
 
 
@@ -37,16 +37,6 @@ def limits(rows):
     best = percent(rows, "best")
     span = max(max(best) - min(best), 1)
     return min(best) - BELOW_BEST * span, max(best) + 0.05 * span
-
-
-def draw_published(axes, meta):
-    """The range that the source found, as bands; (patch, label), or nothing where none is known."""
-    published = meta.get("published_fitness")
-    if not published:
-        return None
-    low, high = (100 * value for value in published)
-    bands = [panel.axhspan(low, high, color=style.GREY, alpha=0.35, linewidth=0, zorder=0) for panel in axes]
-    return bands[0], f"published: {low:g}–{high:g} %"
 
 
 def draw_target(axes, rows, styles):

@@ -161,6 +161,17 @@ class Plots(ReportTest):
         for stem in ["convergence", "generations"]:
             self.assertIn("truncated_distance", (directory / f"{stem}.svg").read_text(), stem)
 
+    def test_what_was_published_is_a_band_of_every_panel(self):
+        directory = self.fits()
+        meta = json.loads((directory / "meta.json").read_text())
+        for published, shown in [(None, False), ([0.5, 0.75], True)]:
+            meta["published_fitness"] = published
+            (directory / "meta.json").write_text(json.dumps(meta))
+            self.drawn(directory)
+            for stem in ["convergence_targets", "generations"]:
+                text = (directory / f"{stem}.svg").read_text()
+                self.assertEqual("published: 50–75 %" in text, shown, stem)
+
     def test_every_table_of_growth_is_drawn_in_three_formats(self):
         self.expect_plots(self.once_drawn("growth"), {"growth_times", "growth_size", "growth_complexity"})
 
