@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <espalier/core/files.h>
-#include <espalier/experiments/runner/csv.h>
 #include <espalier/experiments/growth/growth_phases.h>
+#include <espalier/experiments/runner/csv.h>
 #include <espalier/experiments/runner/growth_runs.h>
 #include <espalier/models/preset.h>
 
