@@ -53,7 +53,7 @@ struct FitsDeclaration {
   int unseen_seeds = 0;                 ///< trees of the result to grow with seeds that the fit never saw
   bool exclude_truth = true;            ///< the species of a known target is not among the starts
   bool posterior = false;               ///< what each target's picture says of its tree, too
-  int posterior_simulations = 16'000;   ///< plants of the prior that it is computed from
+  int posterior_simulations = 20'000;   ///< plants of the prior that it is computed from
   int siblings =
       0;  ///< trees of a target's species to score beside the result, on the side that it never saw
 };

@@ -10,9 +10,8 @@ namespace espalier {
 
 namespace {
 
-/// Share of the table that is near. Fewer are closer and their posterior is narrower, but it covers less than
-/// it says; experiments/posterior_calibration.md compares shares.
-constexpr double kNearShare = 0.16;
+/// Share of the table that is near. Twice and three fifths as many are as sharp and cover as much.
+constexpr double kNearShare = 0.08;
 /// A line through them in forty dimensions takes so many, as long as they are not more than half of the
 /// table.
 constexpr double kLeastNear = 1500;
@@ -30,12 +29,20 @@ struct Neighbours {
   Eigen::VectorXd weights;        ///< Epanechnikov's kernel, zero at the first row that is left out
 };
 
-Neighbours nearest(const Eigen::MatrixXd& points, const Eigen::RowVectorXd& point) {
-  const Eigen::VectorXd distances = (points.rowwise() - point).rowwise().squaredNorm();
-  const auto rows = static_cast<double>(points.rows());
+/// Each row, less that of its part.
+Eigen::MatrixXd less_parts(Eigen::MatrixXd rows, const Eigen::MatrixXd& of_parts) {
+  for (Eigen::Index row = 0; row < rows.rows(); ++row)
+    rows.row(row) -= of_parts.row(row % static_cast<Eigen::Index>(kParts));
+  return rows;
+}
+
+/// `offsets`: of all draws from the picture.
+Neighbours nearest(const Eigen::MatrixXd& offsets) {
+  const Eigen::VectorXd distances = offsets.rowwise().squaredNorm();
+  const auto rows = static_cast<double>(offsets.rows());
   const auto count = static_cast<std::size_t>(std::max(kNearShare * rows, std::min(kLeastNear, 0.5 * rows)));
   Neighbours near;
-  near.rows.resize(static_cast<std::size_t>(points.rows()));
+  near.rows.resize(static_cast<std::size_t>(offsets.rows()));
   std::iota(near.rows.begin(), near.rows.end(), std::size_t{0});
   const auto closer = [&](std::size_t a, std::size_t b) {
     return distances[index(a)] != distances[index(b)] ? distances[index(a)] < distances[index(b)] : a < b;
@@ -84,10 +91,9 @@ LocalLine fit_line(const Eigen::MatrixXd& x, const Eigen::VectorXd& weights, con
 Eigen::MatrixXd adjusted(const Eigen::MatrixXd& offsets, const Eigen::VectorXd& weights,
                          const Eigen::MatrixXd& residuals) {
   constexpr double kLeastSquare = 1e-6, kMostLog = 1.5;
-  // Pictures share most of their near draws, so what a line has of chance is the same for all of them:
-  // without a ridge their medians are off by .03 in rank, with 1 by .02, which is what chance makes of as
-  // many; errors grow by a fiftieth.
-  constexpr double kRidge = 1;
+  // Pictures share many of their near draws, so what a line has of chance is the same for all of them: a
+  // ridge damps it.
+  constexpr double kRidge = 0.2;
   // Logarithms of squares are rough: .5 covers .87 of 90 %, 3 .89, none .91.
   constexpr double kSpreadRidge = 3;
   const LocalLine line = fit_line(offsets, weights, residuals, kRidge);
@@ -117,10 +123,11 @@ constexpr double kEndShare = 0.001;
 
 }  // namespace
 
-PosteriorEstimator::PosteriorEstimator(const Eigen::MatrixXd& unknowns, const Eigen::MatrixXd& summaries)
+PosteriorEstimator::PosteriorEstimator(const Eigen::MatrixXd& unknowns, const Eigen::MatrixXd& summaries,
+                                       int threads)
     : unknown_scores_of_((check_table(unknowns, summaries), unknowns)),
       summary_scores_of_(summaries),
-      regression_(summary_scores_of_.scores(summaries), unknown_scores_of_.scores(unknowns)),
+      regression_(summary_scores_of_.scores(summaries), unknown_scores_of_.scores(unknowns), threads),
       residuals_(unknown_scores_of_.scores(unknowns) - regression_.predictions_of_draws()),
       points_(regression_.points(regression_.predictions_of_draws())),
       lowest_(column_quantiles(regression_.predictions_of_draws(), kEndShare)),
@@ -128,15 +135,16 @@ PosteriorEstimator::PosteriorEstimator(const Eigen::MatrixXd& unknowns, const Ei
 
 Posterior PosteriorEstimator::estimate(const std::vector<double>& summaries) const {
   ESPALIER_CHECK_EQ(summaries.size(), summary_scores_of_.size());
-  const Eigen::MatrixXd observed =
-      Eigen::Map<const Eigen::RowVectorXd>(summaries.data(), index(summaries.size()));
-  const Eigen::RowVectorXd predicted =
-      regression_.predict(summary_scores_of_.scores(observed)).cwiseMax(lowest_).cwiseMin(highest_);
-  const Eigen::RowVectorXd point = regression_.points(predicted);
-  const Neighbours near = nearest(points_, point);
-  const Eigen::MatrixXd offsets = rows_of(points_, near.rows).rowwise() - point;
-  const Eigen::MatrixXd residuals = adjusted(offsets, near.weights, rows_of(residuals_, near.rows));
-  Posterior posterior{near.rows, near.weights, residuals.rowwise() + predicted};
+  const Eigen::RowVectorXd observed = summary_scores_of_.scores(
+      Eigen::Map<const Eigen::RowVectorXd>(summaries.data(), index(summaries.size())));
+  Eigen::MatrixXd predicted = regression_.predict(observed);
+  for (auto part : predicted.rowwise()) part = part.cwiseMax(lowest_).cwiseMin(highest_);
+  const Eigen::MatrixXd offsets = less_parts(points_, regression_.points(predicted));
+  const Neighbours near = nearest(offsets);
+  Posterior posterior{near.rows, near.weights,
+                      adjusted(rows_of(offsets, near.rows), near.weights, rows_of(residuals_, near.rows))};
+  posterior.unknowns =
+      (posterior.unknowns * regression_.shrinkage().asDiagonal()).rowwise() + predicted.colwise().mean();
   for (Eigen::Index column = 0; column < posterior.unknowns.cols(); ++column)
     for (double& score : posterior.unknowns.col(column))
       score = unknown_scores_of_[static_cast<std::size_t>(column)].value(score);

@@ -26,7 +26,8 @@ inline constexpr std::size_t kLeastTableSize = 2000;
 class PosteriorEstimator {
  public:
   /// A row a draw in both; throws InputError for fewer than kLeastTableSize rows.
-  PosteriorEstimator(const Eigen::MatrixXd& unknowns, const Eigen::MatrixXd& summaries);
+  /// The same for any number of threads (0: one a processor).
+  PosteriorEstimator(const Eigen::MatrixXd& unknowns, const Eigen::MatrixXd& summaries, int threads = 0);
 
   /// `summaries`: of the picture, in the order of the table's columns.
   Posterior estimate(const std::vector<double>& summaries) const;

@@ -93,7 +93,8 @@ std::string result_to_json(const PosteriorRequest& request, const PosteriorResul
         {"median", row.median},
         {"interval_90", {row.intervals.back().first, row.intervals.back().second}},
         {"width_share", row.width_share},
-        {"determination", name_of(row.determination)}};
+        {"determination", name_of(row.determination)},
+        {"at_prior_end", row.is_at_prior_end}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -149,6 +150,16 @@ std::vector<std::string> names_of(const std::vector<UnknownSummary>& unknowns, D
   return names;
 }
 
+/// What a picture at the end of what the prior knows makes of the unknowns; nothing for others.
+std::string ends_in_words(const std::vector<UnknownSummary>& unknowns) {
+  std::vector<std::string> names;
+  for (const std::size_t i : chart_order(unknowns))
+    if (unknowns[i].is_at_prior_end) names.push_back(unknowns[i].unknown.name);
+  return names.empty()
+             ? ""
+             : fmt::format("at the end of the prior, so perhaps beyond it: {}\n", fmt::join(names, ", "));
+}
+
 }  // namespace
 
 void check_request(const PosteriorRequest& request) {
@@ -177,7 +188,8 @@ PosteriorResult compute_posterior(const PosteriorRequest& request, const Mask& m
   PosteriorResult result{.unknowns = {}, .species = {}, .check = {}, .simulations = table.size()};
   if (table.size() < request.simulations) return result;
   const auto rows_asked = static_cast<Eigen::Index>(request.simulations);  // a kept table may have more
-  const PosteriorEstimator estimator(table.unknowns.topRows(rows_asked), table.summaries.topRows(rows_asked));
+  const PosteriorEstimator estimator(table.unknowns.topRows(rows_asked), table.summaries.topRows(rows_asked),
+                                     threads);
   Posterior posterior = estimator.estimate(observed);
   const Eigen::MatrixXd replicates = replicated_summaries(prior, table, posterior, threads);
   result.check = check_prediction(replicates, table.summaries.topRows(rows_asked), observed);
@@ -212,6 +224,7 @@ std::string posterior_in_words(const PosteriorResult& result) {
     if (row.unknown.is_quantity)
       text += fmt::format("{:<13} {:<32} {}\n", row.unknown.name, interval_in_words(row),
                           name_of(row.determination));
+  text += ends_in_words(result.unknowns);
   std::vector<std::string> species;
   for (const SpeciesShare& share : result.species)
     if (species.size() < 3) species.push_back(fmt::format("{} {:.0f} %", share.species, 100 * share.share));

@@ -16,7 +16,7 @@ struct PosteriorRequest {
   std::string model = "weber_penn";
   std::string picture;   ///< as it was named, for the files
   double height_m = 10;  ///< of the tree in the picture
-  std::size_t simulations = 16'000;
+  std::size_t simulations = 20'000;
   std::size_t samples = 1000;  ///< rows of samples.csv
   Seed seed = 1;
   std::filesystem::path table;  ///< empty: table.bin in the directory

@@ -40,6 +40,8 @@ std::vector<UnknownSummary> summarize(const PosteriorEstimator& estimator, const
     if (prior_width > 0)
       summary.width_share = score_width(estimator, i, summary.intervals.back()) / prior_width;
     summary.determination = determination_of(summary.width_share);
+    const double below = estimator.prior_share(i, summary.median);
+    summary.is_at_prior_end = below < kPriorEnd || below > 1 - kPriorEnd;
     summaries.push_back(std::move(summary));
   }
   return summaries;

@@ -38,7 +38,12 @@ struct UnknownSummary {
   std::pair<double, double> prior_90;
   double width_share = 1;
   Determination determination = Determination::open;
+  /// The median lies beyond nearly all plants of the prior: the truth may lie farther still.
+  bool is_at_prior_end = false;
 };
+
+/// A median with fewer of the prior's plants beyond it is at the prior's end.
+inline constexpr double kPriorEnd = 0.005;
 
 /// Of each unknown, in their order.
 std::vector<UnknownSummary> summarize(const PosteriorEstimator& estimator, const Posterior& posterior,

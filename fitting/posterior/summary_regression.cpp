@@ -1,33 +1,53 @@
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 
+#include <espalier/core/parallel_for.h>
+#include <espalier/fitting/posterior/networks/network_training.h>
 #include <espalier/fitting/posterior/summary_regression.h>
 
 namespace espalier {
 
 namespace {
 
-constexpr Eigen::Index kProductsOf = 20;  ///< principal components that are multiplied
-constexpr double kRidge = 1e-2;           ///< of the variance of a feature
-constexpr double kLeastVariance = 1e-4;   ///< of a prediction's component, where scores have 1
+constexpr double kLeastVariance = 1e-4;  ///< of a prediction's component, where scores have 1
 
-/// Axes of the largest variance first, and these variances.
-struct Axes {
-  Eigen::MatrixXd vectors;
-  Eigen::VectorXd variances;
-};
+using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Of centred columns.
-Axes principal_axes(const Eigen::MatrixXd& centred) {
-  const Eigen::MatrixXd covariance = centred.transpose() * centred / static_cast<double>(centred.rows());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
-  return {solver.eigenvectors().rowwise().reverse(), solver.eigenvalues().reverse()};
+FloatMatrix to_floats(const Eigen::MatrixXd& matrix) {
+  FloatMatrix floats(static_cast<std::size_t>(matrix.rows()), static_cast<std::size_t>(matrix.cols()));
+  Eigen::Map<RowMajor>(floats.numbers.data(), matrix.rows(), matrix.cols()) = matrix.cast<float>();
+  return floats;
 }
 
-Eigen::MatrixXd centred(const Eigen::MatrixXd& columns) {
-  return columns.rowwise() - columns.colwise().mean();
+Eigen::MatrixXd to_doubles(const FloatMatrix& floats) {
+  return Eigen::Map<const RowMajor>(floats.numbers.data(), static_cast<Eigen::Index>(floats.rows),
+                                    static_cast<Eigen::Index>(floats.columns))
+      .cast<double>();
+}
+
+bool is_witness(Eigen::Index row) { return static_cast<std::size_t>(row) % kWitnesses == kWitnesses - 1; }
+
+bool is_of_part(Eigen::Index row, std::size_t part) { return static_cast<std::size_t>(row) % kParts == part; }
+
+template <typename Chosen>
+std::vector<Eigen::Index> rows_where(Eigen::Index rows, const Chosen& chosen) {
+  std::vector<Eigen::Index> result;
+  result.reserve(static_cast<std::size_t>(rows));
+  for (Eigen::Index row = 0; row < rows; ++row)
+    if (chosen(row)) result.push_back(row);
+  return result;
+}
+
+/// To principal components of unit variance, the largest first.
+Eigen::MatrixXd whitening_of(const Eigen::MatrixXd& predictions) {
+  const Eigen::MatrixXd centred = predictions.rowwise() - predictions.colwise().mean();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(centred.transpose() * centred /
+                                                              static_cast<double>(centred.rows()));
+  const Eigen::MatrixXd vectors = solver.eigenvectors().rowwise().reverse();
+  const Eigen::VectorXd variances = solver.eigenvalues().reverse();
+  const Eigen::Index kept = std::max<Eigen::Index>(1, (variances.array() > kLeastVariance).count());
+  return vectors.leftCols(kept) *
+         variances.head(kept).cwiseMax(kLeastVariance).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
 }  // namespace
@@ -46,77 +66,61 @@ Eigen::MatrixXd ColumnScores::scores(const Eigen::MatrixXd& columns) const {
   return scores;
 }
 
-SummaryFeatures::SummaryFeatures(const Eigen::MatrixXd& scores) {
-  const Eigen::Index products_of = std::min(kProductsOf, scores.cols());
-  const Axes axes = principal_axes(centred(scores));
-  const Eigen::VectorXd lengths = axes.variances.head(products_of).cwiseMax(1e-12).cwiseSqrt();
-  components_ = axes.vectors.leftCols(products_of) * lengths.cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd raw = raw_features(scores);
-  mean_ = raw.colwise().mean();
-  deviation_ = (raw.rowwise() - mean_).colwise().squaredNorm() / static_cast<double>(raw.rows());
-  deviation_ = deviation_.cwiseSqrt().cwiseMax(1e-9);
-}
-
-Eigen::MatrixXd SummaryFeatures::raw_features(const Eigen::MatrixXd& scores) const {
-  const Eigen::MatrixXd components = scores * components_;
-  const Eigen::Index pairs = components.cols() * (components.cols() - 1) / 2;
-  Eigen::MatrixXd features(scores.rows(), 2 * scores.cols() + pairs);
-  features.leftCols(scores.cols()) = scores;
-  features.middleCols(scores.cols(), scores.cols()) = scores.cwiseAbs2();
-  Eigen::Index column = 2 * scores.cols();
-  for (Eigen::Index i = 0; i < components.cols(); ++i)
-    for (Eigen::Index j = 0; j < i; ++j)
-      features.col(column++) = components.col(i).cwiseProduct(components.col(j));
-  return features;
-}
-
-Eigen::MatrixXd SummaryFeatures::features(const Eigen::MatrixXd& scores) const {
-  return (raw_features(scores).rowwise() - mean_).array().rowwise() / deviation_.array();
-}
-
 namespace {
 
-constexpr Eigen::Index kFolds = 5;
-
-Eigen::MatrixXd rows_of_fold(const Eigen::MatrixXd& matrix, Eigen::Index fold) {
-  return matrix(Eigen::seq(fold, Eigen::last, kFolds), Eigen::all);
+Network network_of_part(const Eigen::MatrixXd& summary_scores, const Eigen::MatrixXd& unknown_scores,
+                        std::size_t part) {
+  const TrainingSettings settings{
+      .hidden = {256, 256, 256}, .epochs = 20, .batch = 128, .dropout = 0.1F, .step = 3e-3F, .decay = 0.01F};
+  const std::vector<Eigen::Index> others = rows_where(
+      summary_scores.rows(), [&](Eigen::Index row) { return !is_of_part(row, part) && !is_witness(row); });
+  return train_network(to_floats(summary_scores(others, Eigen::all)),
+                       to_floats(unknown_scores(others, Eigen::all)), settings, child_key(root_key(0), part));
 }
 
-/// Ridge regression by its normal equations, sums over `draws` rows.
-Eigen::MatrixXd solve_ridge(Eigen::MatrixXd products, const Eigen::MatrixXd& with_unknowns, double draws) {
-  products /= draws;
-  products.diagonal().array() += kRidge;
-  return products.ldlt().solve(with_unknowns / draws);
+/// Errors of the mean of all networks beside those of each, over the witnesses.
+Eigen::RowVectorXd shrinkage_of(const std::array<Network, kParts>& networks,
+                                const Eigen::MatrixXd& summary_scores,
+                                const Eigen::MatrixXd& unknown_scores) {
+  const std::vector<Eigen::Index> witnesses = rows_where(summary_scores.rows(), is_witness);
+  const FloatMatrix inputs = to_floats(summary_scores(witnesses, Eigen::all));
+  const Eigen::MatrixXd truths = unknown_scores(witnesses, Eigen::all);
+  Eigen::MatrixXd of_mean = Eigen::MatrixXd::Zero(truths.rows(), truths.cols());
+  Eigen::RowVectorXd of_each = Eigen::RowVectorXd::Constant(truths.cols(), 1e-12);
+  for (const Network& network : networks) {
+    const Eigen::MatrixXd errors = to_doubles(espalier::predict(network, inputs)) - truths;
+    of_mean += errors / static_cast<double>(kParts);
+    of_each += errors.colwise().squaredNorm() / static_cast<double>(kParts);
+  }
+  return (of_mean.colwise().squaredNorm().array() / of_each.array()).sqrt();
 }
 
 }  // namespace
 
 SummaryRegression::SummaryRegression(const Eigen::MatrixXd& summary_scores,
-                                     const Eigen::MatrixXd& unknown_scores)
-    : features_(summary_scores), mean_(unknown_scores.colwise().mean()) {
-  const Eigen::MatrixXd features = features_.features(summary_scores), unknowns = centred(unknown_scores);
-  const Eigen::MatrixXd products = features.transpose() * features,
-                        with_unknowns = features.transpose() * unknowns;
-  of_draws_.resize(unknowns.rows(), unknowns.cols());
-  for (Eigen::Index fold = 0; fold < kFolds; ++fold) {
-    const Eigen::MatrixXd left_out = rows_of_fold(features, fold);
-    const Eigen::MatrixXd coefficients =
-        solve_ridge(products - left_out.transpose() * left_out,
-                    with_unknowns - left_out.transpose() * rows_of_fold(unknowns, fold),
-                    static_cast<double>(features.rows() - left_out.rows()));
-    of_draws_(Eigen::seq(fold, Eigen::last, kFolds), Eigen::all) =
-        (left_out * coefficients).rowwise() + mean_;
+                                     const Eigen::MatrixXd& unknown_scores, int threads) {
+  const Eigen::Index rows = summary_scores.rows();
+  parallel_for(
+      kParts,
+      [&](std::size_t part) { networks_[part] = network_of_part(summary_scores, unknown_scores, part); },
+      threads);
+  of_draws_.resize(rows, unknown_scores.cols());
+  for (std::size_t part = 0; part < kParts; ++part) {
+    const std::vector<Eigen::Index> own =
+        rows_where(rows, [&](Eigen::Index row) { return is_of_part(row, part); });
+    of_draws_(own, Eigen::all) =
+        to_doubles(espalier::predict(networks_[part], to_floats(summary_scores(own, Eigen::all))));
   }
-  const Axes axes = principal_axes(centred(of_draws_));
-  Eigen::Index kept = 0;
-  while (kept < axes.variances.size() && axes.variances[kept] > kLeastVariance) ++kept;
-  whitening_ =
-      axes.vectors.leftCols(kept) * axes.variances.head(kept).cwiseSqrt().cwiseInverse().asDiagonal();
-  coefficients_ = solve_ridge(products, with_unknowns, static_cast<double>(features.rows()));
+  whitening_ = whitening_of(of_draws_);
+  shrinkage_ = shrinkage_of(networks_, summary_scores, unknown_scores);
 }
 
-Eigen::MatrixXd SummaryRegression::predict(const Eigen::MatrixXd& summary_scores) const {
-  return (features_.features(summary_scores) * coefficients_).rowwise() + mean_;
+Eigen::MatrixXd SummaryRegression::predict(const Eigen::RowVectorXd& summary_scores) const {
+  Eigen::MatrixXd predictions(kParts, of_draws_.cols());
+  const FloatMatrix inputs = to_floats(summary_scores);
+  for (std::size_t part = 0; part < kParts; ++part)
+    predictions.row(static_cast<Eigen::Index>(part)) = to_doubles(espalier::predict(networks_[part], inputs));
+  return predictions;
 }
 
 }  // namespace espalier

@@ -71,7 +71,7 @@ std::string names_of(const std::vector<Unknown>& unknowns) {
 /// All that a table's numbers depend on but their count, a line each.
 std::string head_of(const PlantPrior& prior, Seed seed, double height_m) {
   return fmt::format(
-      "espalier reference table 1\nmodel {}\nseed {}\nheight_m {}\nunknowns {}\nsummaries {}\nprior "
+      "espalier reference table 2\nmodel {}\nseed {}\nheight_m {}\nunknowns {}\nsummaries {}\nprior "
       "{:016x}\n",
       prior.model().table().model, seed, height_m, names_of(unknowns_of(prior)),
       fmt::join(summary_names(), ", "), fingerprint_of(prior, height_m));

@@ -6,7 +6,10 @@
 
 #include <espalier/core/error.h>
 #include <espalier/fitting/picture/picture_reading.h>
+#include <espalier/fitting/posterior/simulations/crown_outline.h>
+#include <espalier/fitting/posterior/simulations/oriented_runs.h>
 #include <espalier/fitting/posterior/simulations/silhouette_summaries.h>
+#include <espalier/fitting/posterior/simulations/summary_bands.h>
 #include <espalier/image/masks/bits.h>
 #include <espalier/image/masks/mask_box.h>
 #include <espalier/image/masks/morphology.h>
@@ -17,18 +20,7 @@ namespace espalier {
 
 namespace {
 
-constexpr int kHeights = 16, kTiers = 4;
 constexpr std::array<int, 5> kRadiiPx{1, 2, 3, 5, 8};
-
-/// Rows of one of `count` bands from the top, at least one.
-struct Band {
-  int first = 0, end = 0;
-};
-
-Band band_of(const MaskBox& box, int band, int count) {
-  const int first = box.top + box.height() * band / count;
-  return {first, std::max(first + 1, box.top + box.height() * (band + 1) / count)};
-}
 
 /// Width between the outermost pixels, share of it that is set, and pieces that a row falls into.
 void add_profile(const Mask& mask, const MaskBox& box, std::vector<double>& widths,
@@ -109,6 +101,8 @@ std::vector<std::string> make_names() {
        {"trunk width", "foot width", "bare height", "crown width", "cover", "hull cover", "clump width"})
     names.emplace_back(what);
   names.emplace_back("area");
+  name_oriented_runs(names);
+  name_crown_outline(names);
   return names;
 }
 
@@ -131,6 +125,8 @@ std::vector<double> summaries_of(const Mask& mask) {
   add_sizes(mask, summaries);
   add_reading(mask, summaries);
   summaries.push_back(static_cast<double>(area_px(mask)) / box.height() / box.height());
+  add_oriented_runs(mask, box, summaries);
+  add_crown_outline(mask, box, summaries);
   ESPALIER_CHECK_EQ(summaries.size(), summary_names().size());
   return summaries;
 }

@@ -130,6 +130,24 @@ TEST(Posterior, SaysWhatThePictureDetermines) {
   for (const UnknownSummary& summary : prior) EXPECT_NEAR(summary.width_share, 1, 0.01);
 }
 
+/// Half a place beyond all draws, at either end; nothing within is called so.
+TEST(Posterior, SaysWhichMediansLieBeyondNearlyAllOfThePrior) {
+  const std::vector<Unknown> unknowns = {{"a", "1", false}, {"b", "m", true}, {"c", "1", false}};
+  Posterior one;
+  one.draws = {0};
+  one.weights = Eigen::VectorXd::Ones(1);
+  const auto is_at_end = [&](double share) {
+    one.unknowns = Eigen::RowVector3d(estimator().prior_quantile(0, share), 0, 0);
+    const auto summaries = summarize(estimator(), one, unknowns);
+    EXPECT_FALSE(summaries[1].is_at_prior_end);
+    return summaries[0].is_at_prior_end;
+  };
+  EXPECT_TRUE(is_at_end(0.998));
+  EXPECT_TRUE(is_at_end(0.002));
+  EXPECT_FALSE(is_at_end(0.99));
+  EXPECT_FALSE(is_at_end(0.01));
+}
+
 TEST(Posterior, EqualDrawsComeInProportionToTheWeights) {
   Posterior posterior;
   posterior.draws = {4, 2, 9};

@@ -1,4 +1,5 @@
 // Summaries of silhouettes: the same for a mirrored one, and what they are called.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 
 #include <espalier/core/error.h>
 #include <espalier/core/random.h>
+#include <espalier/fitting/posterior/simulations/oriented_runs.h>
 #include <espalier/fitting/posterior/simulations/plant_simulator.h>
 #include <espalier/fitting/posterior/simulations/silhouette_summaries.h>
 #include <espalier/image/reading/read_target.h>
@@ -72,6 +74,56 @@ TEST(SilhouetteSummaries, AreTheSameForAMirroredTree) {
     const auto summaries = named(mask), other = named(mirrored(mask));
     for (const auto& [name, value] : summaries) EXPECT_NEAR(other.at(name), value, 1e-6) << name;
   }
+}
+
+/// A bar that rises away from the foot on either side, three pixels thick measured across the rows.
+Mask rising_bars() {
+  Mask mask(kSummaryFramePx, kSummaryFramePx);
+  for (int i = 0; i < 40; ++i)
+    for (int thick = 0; thick < 3; ++thick) {
+      mask.set(66 + i, 100 - i - thick);
+      mask.set(127 - 66 - i, 100 - i - thick);
+    }
+  return mask;
+}
+
+TEST(SilhouetteSummaries, RunsTellBarsThatRiseOutwardFromThoseThatRiseInward) {
+  const auto summaries = named(rising_bars());
+  for (int tier = 1; tier <= 4; ++tier) {
+    const std::string place = fmt::format("5 px pieces {}", tier);
+    EXPECT_GT(summaries.at("outward " + place), 0.03) << tier;
+    for (const char* direction : {"inward ", "level ", "upright "})
+      EXPECT_EQ(summaries.at(direction + place), 0) << direction << tier;
+  }
+  EXPECT_GT(summaries.at("level 5 px gaps 1"), 0.5);
+  EXPECT_GT(summaries.at("upright 3 px pieces 1"), 0);  // as thick as the bars
+}
+
+TEST(SilhouetteSummaries, RunsAreThoseOfAtLeastTheirLength) {
+  Mask mask(kSummaryFramePx, kSummaryFramePx);
+  for (int x = 60; x < 67; ++x) mask.set(x, 10);  // seven, over the border of two words
+  for (int x = 20; x < 23; ++x) mask.set(x, 10);
+  EXPECT_EQ(area_px(on_runs(mask, 3, 1, 0)), 10u);
+  EXPECT_EQ(area_px(on_runs(mask, 4, 1, 0)), 7u);
+  EXPECT_EQ(area_px(on_runs(mask, 4, -1, 0)), 7u);
+  EXPECT_EQ(area_px(on_runs(mask, 8, 1, 0)), 0u);
+  EXPECT_EQ(area_px(on_runs(mask, 2, 0, 1)), 0u);
+  EXPECT_EQ(area_px(on_runs(mask, 2, -1, -1)), 0u);
+}
+
+TEST(SilhouetteSummaries, RingsTellAHollowPostAndStepsARoughOne) {
+  const auto hollow = named(slit_post());
+  EXPECT_LT(hollow.at("ring 1 cover 1"), 0.1);  // the slit is a quarter of the width, in the middle
+  EXPECT_GT(hollow.at("ring 4 cover 1"), 0.9);
+  EXPECT_GT(hollow.at("ring 1 cover 4"), 0.9);
+  EXPECT_NEAR(hollow.at("steps 2"), 0, 1e-9);
+  EXPECT_NEAR(hollow.at("width spread 03"), 0, 1e-9);
+  Mask rough = slit_post();
+  for (int y = 52; y < 76; y += 2) rough.set(46, y);  // two pixels out and in again, in the second tier
+  const auto stepped = named(rough);
+  EXPECT_NEAR(stepped.at("steps 2"), std::log1p(24 * 2.0 / 25), 1e-9);
+  EXPECT_NEAR(stepped.at("steps 1"), 0, 1e-9);
+  EXPECT_NEAR(stepped.at("width spread 06"), 1.0 / 96, 1e-9);
 }
 
 TEST(SilhouetteSummaries, OfALargePictureAreNearlyThoseOfASmallOne) {
