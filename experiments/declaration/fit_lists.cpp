@@ -328,7 +328,7 @@ std::string find_model(const TomlSection& section, const std::string& name) {
 std::string find_lsystem(const TomlSection& section, std::string_view key, const std::string& name) {
   std::string file = name;
   if (!file.ends_with(".lsys")) file += ".lsys";
-  const std::string found = find_model(section, file);
+  std::string found = find_model(section, file);
   located(section, key, [&] { return &model_by_name(found); });
   return found;
 }
