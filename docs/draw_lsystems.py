@@ -1,11 +1,12 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Draws the pictures of the bundled L-systems for lsystem.md anew: lsystem/NAME.png, with the options that the page
 names beside them.
 
     docs/draw_lsystems.py [--check] [PROGRAM] [NAME…]
 
 PROGRAM: build/bin/espalier unless told otherwise; names: all of them unless some are given. --check changes nothing
-and exits 1 where a picture is not the one that the program draws. A few pixels may differ by rounding, because what
+and exits 1 where a picture is not the one that the program draws, 77 where Debian's python3-numpy or python3-pil is
+missing (they come with python3-matplotlib). A few pixels may differ by rounding, because what
 Embree computes depends on the vectors that it chooses."""
 
 import pathlib
@@ -14,8 +15,12 @@ import subprocess
 import sys
 import tempfile
 
-import numpy
-from PIL import Image
+try:
+    import numpy
+    from PIL import Image
+except ImportError as error:
+    print(f"pictures are not compared: {error}; install Debian's python3-matplotlib", file=sys.stderr)
+    sys.exit(77)
 
 DOCS = pathlib.Path(__file__).resolve().parent
 MODELS = DOCS.parent / "src/lsystem/models"

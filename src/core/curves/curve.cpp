@@ -1,8 +1,9 @@
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <espalier/core/curves/curve.h>
+#include <espalier/core/curves/de_boor.h>
 #include <espalier/core/error.h>
 
 namespace espalier {
@@ -35,37 +36,6 @@ Spline with_knot(const Spline& spline, double knot) {
 
 std::size_t piece_of(double x) { return std::min(static_cast<std::size_t>(x * kPieces), kPieces - 1); }
 
-/// de Boor's recursion among the numbers of a spline of this degree, of which the piece's first is
-/// numbers[piece].
-double de_boor(std::span<const double> numbers, std::span<const double> knots, std::size_t degree,
-               std::size_t piece, double x) {
-  std::array<double, kDegree + 1> d{};
-  std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(piece), degree + 1, d.begin());
-  for (std::size_t r = 1; r <= degree; ++r)
-    for (std::size_t j = degree; j >= r; --j) {
-      const double lower = knots[piece + j], upper = knots[piece + j + degree + 1 - r];
-      const double share = (x - lower) / (upper - lower);
-      d[j] = (1 - share) * d[j - 1] + share * d[j];
-    }
-  return d[degree];
-}
-
-/// Solves A x = b for a symmetric positive matrix by Gaussian elimination.
-template <std::size_t kSize>
-std::array<double, kSize> solve(std::array<std::array<double, kSize>, kSize> a, std::array<double, kSize> b) {
-  for (std::size_t p = 0; p < kSize; ++p)
-    for (std::size_t row = p + 1; row < kSize; ++row) {
-      const double factor = a[row][p] / a[p][p];
-      for (std::size_t c = p; c < kSize; ++c) a[row][c] -= factor * a[p][c];
-      b[row] -= factor * b[p];
-    }
-  for (std::size_t row = kSize; row-- > 0;) {
-    for (std::size_t c = row + 1; c < kSize; ++c) b[row] -= a[row][c] * b[c];
-    b[row] /= a[row][row];
-  }
-  return b;
-}
-
 }  // namespace
 
 Curve make_curve(std::span<const double> numbers) {
@@ -90,7 +60,8 @@ Curve make_curve(std::span<const double> numbers) {
 double curve_value(const Curve& curve, double x) {
   if (std::isnan(x)) return x;
   const double inside = std::clamp(x, 0.0, 1.0);
-  return de_boor(curve.numbers, kKnots, kDegree, piece_of(inside), inside);
+  const auto knot = [](std::size_t i) { return kKnots[i]; };
+  return de_boor(std::span<const double>(curve.numbers), knot, kDegree, piece_of(inside), inside);
 }
 
 double curve_slope(const Curve& curve, double x) {
@@ -100,7 +71,8 @@ double curve_slope(const Curve& curve, double x) {
   for (std::size_t i = 0; i < slopes.size(); ++i)
     slopes[i] =
         kDegree * (curve.numbers[i + 1] - curve.numbers[i]) / (kKnots[i + kDegree + 1] - kKnots[i + 1]);
-  return de_boor(slopes, std::span(kKnots).subspan(1, kKnots.size() - 2), kDegree - 1, piece_of(x), x);
+  const auto knot = [](std::size_t i) { return kKnots[i + 1]; };
+  return de_boor(std::span<const double>(slopes), knot, kDegree - 1, piece_of(x), x);
 }
 
 std::vector<double> curve_abscissae(std::size_t count) {
@@ -121,20 +93,18 @@ Curve fit_curve(std::span<const double> values) {
   ESPALIER_CHECK_EQ(values.size() > kCurveNumbers, true);
   std::array<Curve, kCurveNumbers> basis;
   for (std::size_t i = 0; i < kCurveNumbers; ++i) basis[i].numbers[i] = 1;
-  std::array<std::array<double, kInner>, kInner> a{};
-  std::array<double, kInner> b{};
+  Eigen::Matrix<double, kInner, kInner> normal = Eigen::Matrix<double, kInner, kInner>::Zero();
+  Eigen::Vector<double, kInner> right = Eigen::Vector<double, kInner>::Zero();
   for (std::size_t s = 0; s < values.size(); ++s) {
     const double x = static_cast<double>(s) / static_cast<double>(values.size() - 1);
     const double rest = values[s] - values.front() * curve_value(basis.front(), x) -
                         values.back() * curve_value(basis.back(), x);
-    std::array<double, kInner> weights{};
-    for (std::size_t i = 0; i < kInner; ++i) weights[i] = curve_value(basis[i + 1], x);
-    for (std::size_t i = 0; i < kInner; ++i) {
-      b[i] += weights[i] * rest;
-      for (std::size_t j = 0; j < kInner; ++j) a[i][j] += weights[i] * weights[j];
-    }
+    Eigen::Vector<double, kInner> weights;
+    for (std::size_t i = 0; i < kInner; ++i) weights[static_cast<int>(i)] = curve_value(basis[i + 1], x);
+    right += rest * weights;
+    normal += weights * weights.transpose();
   }
-  const std::array<double, kInner> inner = solve(a, b);
+  const Eigen::Vector<double, kInner> inner = normal.ldlt().solve(right);
   Curve curve;
   curve.numbers.front() = values.front();
   curve.numbers.back() = values.back();

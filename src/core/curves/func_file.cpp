@@ -5,10 +5,16 @@
 #include <optional>
 #include <sstream>
 
+#include <espalier/core/curves/de_boor.h>
 #include <espalier/core/curves/func_file.h>
 #include <espalier/core/error.h>
 
 namespace espalier {
+
+/// For de_boor(), which finds it by its argument: not in the unnamed namespace.
+static PlanePoint between(const PlanePoint& a, const PlanePoint& b, double share) {
+  return {between(a.x, b.x, share), between(a.y, b.y, share)};
+}
 
 namespace {
 
@@ -106,20 +112,13 @@ void read_point(Lines& lines, std::vector<PlanePoint>& points) {
   points.insert(points.end(), static_cast<std::size_t>(*times), {*x, *y});
 }
 
-/// The spline at its own parameter, from 0 to 1: de Boor's recursion with the knots 0,0,0,0,1,2,…,n,n,n,n.
+/// The spline at its own parameter, from 0 to 1, with the knots 0,0,0,0,1,2,…,n,n,n,n.
 PlanePoint on_spline(const std::vector<PlanePoint>& points, double parameter) {
   const auto pieces = static_cast<double>(points.size() - 3);
   const double u = parameter * pieces;
   const auto piece = static_cast<std::size_t>(std::min(std::floor(u), pieces - 1));
   const auto knot = [&](std::size_t i) { return std::clamp(static_cast<double>(i) - 3, 0.0, pieces); };
-  std::array<PlanePoint, 4> d{points[piece], points[piece + 1], points[piece + 2], points[piece + 3]};
-  for (std::size_t r = 1; r <= 3; ++r)
-    for (std::size_t j = 3; j >= r; --j) {
-      const double lower = knot(piece + j), upper = knot(piece + j + 4 - r);
-      const double share = (u - lower) / (upper - lower);
-      d[j] = {(1 - share) * d[j - 1].x + share * d[j].x, (1 - share) * d[j - 1].y + share * d[j].y};
-    }
-  return d[3];
+  return de_boor(std::span<const PlanePoint>(points), knot, 3, piece, u);
 }
 
 std::vector<double> sampled_values(const std::vector<PlanePoint>& points) {

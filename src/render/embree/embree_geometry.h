@@ -55,23 +55,22 @@ struct LeafPolygons {
   const LeafHalf* half = nullptr;   ///< of the outline
 };
 
-struct BlossomTriangles {
-  void collect(const Plant& plant);
+struct Triangles {
   void set_on(RTCGeometry geometry) const;
   std::size_t size() const { return triangles.size(); }
 
   std::vector<std::array<float, 4>> vertices;  ///< the fourth number pads to 16 bytes
   std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+struct BlossomTriangles : Triangles {
+  void collect(const Plant& plant);
+
   std::vector<std::uint32_t> leaf;  ///< index in Plant::leaves of each triangle
 };
 
-struct ObjectTriangles {
+struct ObjectTriangles : Triangles {
   void collect(const SceneObjects& objects);
-  void set_on(RTCGeometry geometry) const;
-  std::size_t size() const { return triangles.size(); }
-
-  std::vector<std::array<float, 4>> vertices;  ///< the fourth number pads to 16 bytes
-  std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
 }  // namespace espalier

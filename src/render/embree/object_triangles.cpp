@@ -10,11 +10,4 @@ void ObjectTriangles::collect(const SceneObjects& objects) {
   triangles = objects.triangles;
 }
 
-void ObjectTriangles::set_on(RTCGeometry geometry) const {
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(), 0,
-                             sizeof(vertices[0]), vertices.size());
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0,
-                             sizeof(triangles[0]), triangles.size());
-}
-
 }  // namespace espalier
