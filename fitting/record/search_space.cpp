@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <espalier/core/assignment.h>
+#include <espalier/core/curves/parameter_curves.h>
 #include <espalier/core/field_error.h>
 #include <espalier/fitting/record/search_space.h>
 
@@ -20,9 +22,17 @@ bool matches(std::string_view pattern, std::string_view text) {
          matches(pattern.substr(1), text.substr(1));
 }
 
+/// The end of the name must be spelt, so that patterns do not reach into curves by chance.
+bool names_curve(const std::string& pattern, const ParameterInfo& row) {
+  const std::string full_name = row.full_name();
+  return pattern.find(row.name.substr(row.name.rfind('_'))) != std::string::npos &&
+         (matches(pattern, full_name) || matches(pattern, full_name.substr(0, full_name.rfind('.'))));
+}
+
 bool names_row(const std::string& pattern, const ParameterInfo& row) {
   if (pattern == "default") return row.free_by_default;
-  return matches(pattern, row.full_name()) || pattern == row.name;
+  if (pattern == row.name) return true;
+  return row.point < 0 ? matches(pattern, row.full_name()) : names_curve(pattern, row);
 }
 
 double interpolate(Mapping mapping, Range range, double unit) {
@@ -106,16 +116,64 @@ void check_has_defaults(const ParameterTable& table) {
       unit ? fmt::format("; its size alone is searched with --free {}", table.rows[*unit].name) : "");
 }
 
-std::vector<bool> chosen_rows(const ParameterTable& table, const SearchChoice& choice) {
-  std::vector<bool> chosen(table.rows.size(), false);
+/// A pattern of free parameters, and by how many numbers curves are searched: 0 by all that they have.
+struct FreePattern {
+  std::string names;
+  std::size_t numbers = 0;
+};
+
+FreePattern parse_free(const std::string& text) {
+  const std::size_t tilde = text.find('~');
+  if (tilde == std::string::npos) return {text};
+  const auto numbers = parse_decimal(text.substr(tilde + 1));
+  if (!numbers || std::find(kCurveCounts.begin(), kCurveCounts.end(), *numbers) == kCurveCounts.end())
+    throw_field_error("search.free", "got '{}', expected a curve, ~ and 1, 4, 5 or 7 numbers", text);
+  return {text.substr(0, tilde), static_cast<std::size_t>(*numbers)};
+}
+
+/// By row: whether it is searched, and for the first row of a curve by how many numbers, if not by all.
+struct ChosenRows {
+  std::vector<bool> chosen;
+  std::vector<std::size_t> numbers;
+};
+
+void choose(const ParameterTable& table, const std::string& text, ChosenRows& rows) {
+  const FreePattern pattern = parse_free(text);
+  for (const std::size_t row : rows_matching(table, pattern.names, "search.free")) {
+    const CurveInfo* curve = table.curve_of(row);
+    if (pattern.numbers > 0 && curve == nullptr)
+      throw_field_error("search.free", "got '{}', but {} is no curve, expected a curve before ~", text,
+                        table.rows[row].full_name());
+    rows.chosen[row] = true;
+    if (curve) rows.numbers[curve->first_row] = pattern.numbers == kCurveRows ? 0 : pattern.numbers;
+  }
+}
+
+ChosenRows chosen_rows(const ParameterTable& table, const SearchChoice& choice) {
+  ChosenRows rows{std::vector<bool>(table.rows.size(), false),
+                  std::vector<std::size_t>(table.rows.size(), 0)};
   const std::vector<std::string> patterns =
       choice.free.empty() ? std::vector<std::string>{"default"} : choice.free;
   if (std::find(patterns.begin(), patterns.end(), "default") != patterns.end()) check_has_defaults(table);
-  for (const std::string& pattern : patterns)
-    for (const std::size_t row : rows_matching(table, pattern, "search.free")) chosen[row] = true;
+  for (const std::string& pattern : patterns) choose(table, pattern, rows);
   for (const auto& [pattern, value] : choice.fixed)
-    for (const std::size_t row : rows_matching(table, pattern, "search.fixed")) chosen[row] = false;
-  return chosen;
+    for (const std::size_t row : rows_matching(table, pattern, "search.fixed")) rows.chosen[row] = false;
+  return rows;
+}
+
+/// A curve by `count` numbers, unless some of its own are fixed.
+void add_coarse(const ParameterTable& table, const CurveInfo& curve, const ChosenRows& rows,
+                const SearchChoice& choice, const ParameterValues& start, SearchSpace& space) {
+  const auto first = rows.chosen.begin() + static_cast<std::ptrdiff_t>(curve.first_row);
+  if (!std::all_of(first, first + kCurveRows, [](bool is_chosen) { return is_chosen; })) return;
+  const std::size_t count = rows.numbers[curve.first_row];
+  const std::vector<double> numbers = coarse_numbers(curve, start, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    FreeParameter& parameter =
+        space.free.emplace_back(make_free(table, curve.first_row, choice, numbers[i], 1));
+    parameter.name = fmt::format("{}~{}.{}", curve.full_name(), count, i + 1);
+    parameter.of_curve = count;
+  }
 }
 
 }  // namespace
@@ -138,13 +196,38 @@ double unit_at(const FreeParameter& parameter, double value) {
 void SearchSpace::decode(std::span<const double> unit, ParameterValues& values) const {
   ESPALIER_CHECK_EQ(unit.size(), dimension());
   values = base;
-  for (std::size_t i = 0; i < free.size(); ++i) values[free[i].row] = value_at(free[i], unit[i]);
+  for (std::size_t i = 0; i < free.size(); i += std::max<std::size_t>(free[i].of_curve, 1))
+    if (free[i].of_curve == 0)
+      values[free[i].row] = value_at(free[i], unit[i]);
+    else
+      decode_curve(i, unit, values);
+}
+
+void SearchSpace::decode_curve(std::size_t first, std::span<const double> unit,
+                               ParameterValues& values) const {
+  std::array<double, kCurveNumbers> numbers{};
+  const std::size_t count = free[first].of_curve;
+  for (std::size_t i = 0; i < count; ++i) numbers[i] = value_at(free[first + i], unit[first + i]);
+  const auto [lower, upper] =
+      std::minmax_element(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(count));
+  const Curve curve = make_curve(std::span(numbers).first(count));
+  for (std::size_t i = 0; i < kCurveRows; ++i)
+    values[free[first].row + i] = std::clamp(curve.numbers[i], *lower, *upper) + 0.0;  // valid and never -0
 }
 
 std::vector<double> SearchSpace::encode(std::span<const double> values) const {
   ESPALIER_CHECK_EQ(values.size(), base.size());
   std::vector<double> unit;
-  for (const FreeParameter& parameter : free) unit.push_back(unit_at(parameter, values[parameter.row]));
+  unit.reserve(free.size());
+  while (unit.size() < free.size()) {
+    const FreeParameter& parameter = free[unit.size()];
+    if (parameter.of_curve == 0) {
+      unit.push_back(unit_at(parameter, values[parameter.row]));
+      continue;
+    }
+    for (const double number : coarse_numbers({.first_row = parameter.row}, values, parameter.of_curve))
+      unit.push_back(unit_at(free[unit.size()], number));
+  }
   return unit;
 }
 
@@ -154,8 +237,9 @@ std::vector<std::size_t> rows_matching(const ParameterTable& table, const std::s
   std::vector<std::string> known;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     if (names_row(pattern, table.rows[i])) rows.push_back(i);
-    known.push_back(table.rows[i].full_name());
+    if (table.rows[i].point < 0) known.push_back(table.rows[i].full_name());
   }
+  for (const CurveInfo& curve : table.curves) known.push_back(curve.full_name());
   if (rows.empty())
     throw_field_error(field, "got '{}', expected a parameter of {}; the closest is '{}'", pattern,
                       table.model, closest_name(pattern, known));
@@ -186,9 +270,13 @@ SearchSpace make_search_space(const ParameterTable& table, const ParameterValues
   ESPALIER_CHECK_EQ(start.size(), table.rows.size());
   SearchSpace space{start, {}};
   apply_fixed(table, choice, space.base);
-  const std::vector<bool> chosen = chosen_rows(table, choice);
-  for (std::size_t row = 0; row < chosen.size(); ++row)
-    if (chosen[row]) space.free.push_back(make_free(table, row, choice, start[row], metre_factor));
+  const ChosenRows rows = chosen_rows(table, choice);
+  for (std::size_t row = 0; row < rows.chosen.size(); ++row)
+    if (const CurveInfo* curve = table.curve_of(row); curve && rows.numbers[curve->first_row] > 0) {
+      if (row == curve->first_row) add_coarse(table, *curve, rows, choice, start, space);
+    } else if (rows.chosen[row]) {
+      space.free.push_back(make_free(table, row, choice, start[row], metre_factor));
+    }
   if (space.free.empty())
     throw_field_error("search.fixed", "got every free parameter, expected one left to search");
   return space;

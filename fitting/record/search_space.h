@@ -5,6 +5,8 @@
 //   logarithmic  lower·(upper / lower)^u
 //   whole        equal slices of [0, 1], one a number: integers that may not be relaxed, and choices
 //   sign flags   where the range spans zero: [0, 0.5) is lower..0, [0.5, 1] is 0..upper, each half linear
+// A curve is searched number by number, or as a curve of fewer numbers: all such curves are among those of
+// its own 7 (core/curves/curve.h).
 #pragma once
 #include <map>
 #include <span>
@@ -25,6 +27,8 @@ struct FreeParameter {
   Mapping mapping = Mapping::linear;
   double lower = 0, upper = 1;  ///< searched values, inside the valid ones
   bool split_at_zero = false;   ///< half of the box for each sign
+  std::size_t of_curve =
+      0;  ///< so many in turn are the numbers of the curve whose first row this is; 0: alone
 };
 
 /// The value at `unit` (clamped to [0, 1]): inside the bounds, never -0.
@@ -42,6 +46,9 @@ struct SearchSpace {
   void decode(std::span<const double> unit, ParameterValues& values) const;
   /// The point that decode() takes back to the free parameters of `values`, each clamped to its range.
   std::vector<double> encode(std::span<const double> values) const;
+
+ private:
+  void decode_curve(std::size_t first, std::span<const double> unit, ParameterValues& values) const;
 };
 
 struct SearchRange {
@@ -50,13 +57,15 @@ struct SearchRange {
 
 /// What the user, or the picture, says of the space.
 struct SearchChoice {
-  std::vector<std::string> free;              ///< names or patterns; none: the rows free by default
+  std::vector<std::string> free;  ///< names or patterns, of curves also "length_along[1]~4": by 4 numbers;
+                                  ///< none: the rows free by default
   std::map<std::string, double> fixed;        ///< full names or patterns, and their values
   std::map<std::string, SearchRange> ranges;  ///< full names; neither starts nor the search leave them
 };
 
 /// Rows of the table that a pattern names: "g_scale", "curve_v[1]", "curve_v" (all levels), with * and ?
-/// for any letters ("*[1]"), "default" for the rows free by default. Throws FieldError (of `field`),
+/// for any letters ("*[1]"), "default" for the rows free by default. Curves are named as a whole, and only
+/// where the end of their name is spelt ("length_along[1]", "*_along"). Throws FieldError (of `field`),
 /// naming the closest parameter, where there is none.
 std::vector<std::size_t> rows_matching(const ParameterTable& table, const std::string& pattern,
                                        std::string_view field);

@@ -24,6 +24,9 @@ struct LoggedEvaluation {
 /// FNV-1a over the bits of the values.
 std::uint32_t hash_values(const ParameterValues& values);
 
+/// The same over those of the rows in use: curves that change nothing are not told apart from none.
+std::uint32_t hash_values(const ParameterTable& table, const ParameterValues& values);
+
 /// What a log holds, without its torn tail. The file is only read, also while a run writes it. Throws
 /// InputError where there is none, or it is no log.
 std::vector<LoggedEvaluation> read_evaluation_log(const std::filesystem::path& path);

@@ -6,9 +6,10 @@
 
 namespace espalier {
 
-std::unique_ptr<Encoding> make_encoding(const std::string& name, const ParameterTable& table) {
-  if (name == "raw") return make_raw_encoding(table);
-  if (name == "monotone") return make_monotone_encoding(table);
+std::unique_ptr<Encoding> make_encoding(const std::string& name, const ParameterTable& table,
+                                        std::vector<bool> written) {
+  if (name == "raw") return make_raw_encoding(table, std::move(written));
+  if (name == "monotone") return make_monotone_encoding(table, std::move(written));
   throw_input_error("encoding: got '{}', expected raw or monotone", name);
 }
 

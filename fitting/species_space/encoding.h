@@ -47,23 +47,29 @@ class Encoding {
   const std::vector<EncodingChoice>& choices() const { return choices_; }
   /// True where plants of different depth are to be written with equally many levels first (Model::deepened).
   virtual bool levels_are_a_choice() const = 0;
+  /// False for a row that is left out: it has no columns, and is read as the default.
+  bool writes(std::size_t row) const { return written_.empty() || written_[row]; }
 
   virtual EncodedValues encode(const ParameterValues& values) const = 0;
   /// Valid values for any numbers: whole where they must be, inside their bounds, -0 as 0.
   virtual DecodedValues decode(const EncodedValues& encoded) const = 0;
 
  protected:
-  explicit Encoding(const ParameterTable& table) : table_(&table) {}
+  Encoding(const ParameterTable& table, std::vector<bool> written)
+      : table_(&table), written_(std::move(written)) {}
   const ParameterTable* table_;
+  std::vector<bool> written_;  ///< rows; none: all of them
   std::vector<EncodingColumn> columns_;
   std::vector<EncodingChoice> choices_;
 };
 
-/// "raw" or "monotone". Throws InputError for any other name. `table` must outlive the encoding.
-std::unique_ptr<Encoding> make_encoding(const std::string& name, const ParameterTable& table);
+/// "raw" or "monotone". Throws InputError for any other name. `table` must outlive the encoding. `written`:
+/// which rows it writes, such as those that some of its plants use (rows_in_use); none: all of them.
+std::unique_ptr<Encoding> make_encoding(const std::string& name, const ParameterTable& table,
+                                        std::vector<bool> written = {});
 
-std::unique_ptr<Encoding> make_raw_encoding(const ParameterTable& table);
-std::unique_ptr<Encoding> make_monotone_encoding(const ParameterTable& table);
+std::unique_ptr<Encoding> make_raw_encoding(const ParameterTable& table, std::vector<bool> written);
+std::unique_ptr<Encoding> make_monotone_encoding(const ParameterTable& table, std::vector<bool> written);
 
 /// Whether the magnitudes of a row with a side are all zero, or mean nothing to this plant: then they say
 /// nothing about the side.

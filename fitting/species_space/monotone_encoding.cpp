@@ -119,7 +119,7 @@ const ParameterCodec& codec_of(const ParameterInfo& row) {
 
 /// A row and where its fields begin.
 struct CodedRow {
-  const ParameterCodec* codec;  ///< none: written by the row it is mixed into
+  const ParameterCodec* codec;  ///< none: written by the row it is mixed into, or left out
   std::size_t first_column, first_choice;
 };
 
@@ -131,7 +131,7 @@ struct MixedChoice {
 
 class MonotoneEncoding : public Encoding {
  public:
-  explicit MonotoneEncoding(const ParameterTable& table);
+  MonotoneEncoding(const ParameterTable& table, std::vector<bool> written);
   std::string name() const override { return "monotone"; }
   bool levels_are_a_choice() const override { return true; }
   EncodedValues encode(const ParameterValues& values) const override;
@@ -151,8 +151,8 @@ class MonotoneEncoding : public Encoding {
   std::vector<std::vector<std::size_t>> needs_;
 };
 
-MonotoneEncoding::MonotoneEncoding(const ParameterTable& table)
-    : Encoding(table), levels_row_(table.find(Role::levels)) {
+MonotoneEncoding::MonotoneEncoding(const ParameterTable& table, std::vector<bool> written)
+    : Encoding(table, std::move(written)), levels_row_(table.find(Role::levels)) {
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     if (!table.rows[row].mixed_with.empty()) add_mixed(row);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
@@ -177,7 +177,7 @@ bool MonotoneEncoding::is_mixed(std::size_t row) const {
 }
 
 void MonotoneEncoding::add_row(std::size_t row) {
-  const ParameterCodec* codec = is_mixed(row) ? nullptr : &codec_of(table_->rows[row]);
+  const ParameterCodec* codec = is_mixed(row) || !writes(row) ? nullptr : &codec_of(table_->rows[row]);
   rows_.push_back({codec, columns_.size(), choices_.size()});
   if (!codec) return;
   const CodedNames names = codec->names(table_->rows[row]);
@@ -259,8 +259,8 @@ void MonotoneEncoding::read_shares(const MixedChoice& mixed, const EncodedValues
 
 }  // namespace
 
-std::unique_ptr<Encoding> make_monotone_encoding(const ParameterTable& table) {
-  return std::make_unique<MonotoneEncoding>(table);
+std::unique_ptr<Encoding> make_monotone_encoding(const ParameterTable& table, std::vector<bool> written) {
+  return std::make_unique<MonotoneEncoding>(table, std::move(written));
 }
 
 }  // namespace espalier

@@ -102,12 +102,29 @@ PlantAtPoint finish_plant(const SpeciesSpace& space, const Eigen::VectorXd& coor
   return plant;
 }
 
+/// Rows that some of the presets use: a curve that none does would be columns of one number.
+std::vector<bool> rows_used_by(std::span<const Preset> presets, const ParameterTable& table) {
+  std::vector<bool> used(table.rows.size(), false);
+  for (const Preset& preset : presets) {
+    const std::vector<bool> of_preset = rows_in_use(table, preset.values);
+    for (std::size_t row = 0; row < used.size(); ++row) used[row] = used[row] || of_preset[row];
+  }
+  return used;
+}
+
+/// What the space leaves out stays as it is.
+void keep_left_out(const Encoding& encoding, const ParameterValues& from, ParameterValues& values) {
+  for (std::size_t row = 0; row < values.size(); ++row)
+    if (!encoding.writes(row)) values[row] = from[row];
+}
+
 }  // namespace
 
 SpeciesSpace make_species_space(std::span<const Preset> presets, const std::string& encoding,
                                 int components) {
   const Model& model = common_model(presets);
-  SpeciesSpace space{&model, make_encoding(encoding, model.table()), {}, {}};
+  SpeciesSpace space{
+      &model, make_encoding(encoding, model.table(), rows_used_by(presets, model.table())), {}, {}};
   const auto rows = static_cast<Index>(presets.size());
   const auto columns = static_cast<Index>(space.encoding->columns().size());
   Eigen::MatrixXd numbers(rows, columns);
@@ -144,7 +161,9 @@ PlantAtPoint plant_moved_to(const SpeciesSpace& space, const ParameterValues& va
   if (move.isZero(0)) return finish_plant(space, coordinates, nearest, {values, {}});
   const EncodedValues encoded = space.encoding->encode(values);
   const Eigen::VectorXd numbers = vector_of(encoded.numbers) + reconstruct(space.pca, move) - space.pca.mean;
-  return finish_plant(space, coordinates, nearest, decode_in_range(space, encoded, numbers));
+  DecodedValues decoded = decode_in_range(space, encoded, numbers);
+  keep_left_out(*space.encoding, values, decoded.values);
+  return finish_plant(space, coordinates, nearest, std::move(decoded));
 }
 
 ReconstructionError reconstruction_error(const SpeciesSpace& space) {

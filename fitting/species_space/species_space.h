@@ -34,7 +34,8 @@ struct SpeciesSpace {
 };
 
 /// Presets of one model, at least two. components: at least 1, at most the rank. Throws InputError for fewer,
-/// for presets of several models, where all are the same, or components is out of range.
+/// for presets of several models, where all are the same, or components is out of range. Curves that are
+/// neutral in all presets have no columns.
 SpeciesSpace make_species_space(std::span<const Preset> presets, const std::string& encoding, int components);
 
 /// Where a plant lies in the space, or its projection.

@@ -27,6 +27,16 @@ std::string numbers_to_toml(const Numbers& numbers) {
   return fmt::format("[{}]", text);
 }
 
+/// The entries of rows that the space's encoding writes.
+template <typename T>
+std::vector<T> of_written_rows(const Encoding& encoding, const std::vector<T>& of_rows) {
+  std::vector<T> written;
+  written.reserve(of_rows.size());
+  for (std::size_t row = 0; row < of_rows.size(); ++row)
+    if (encoding.writes(row)) written.push_back(of_rows[row]);
+  return written;
+}
+
 template <typename Named>
 std::string names_to_toml(const std::vector<Named>& all, std::string (*name)(const Named&)) {
   std::string text;
@@ -89,13 +99,27 @@ struct SpaceReader {
   }
 };
 
-SpeciesPoint read_species(const SpaceReader& reader, const ParameterTable& table, int dimension) {
+/// Curves that the file does not name are left out, as in what older programs wrote.
+std::vector<bool> written_rows(const SpaceReader& reader, const ParameterTable& table) {
+  std::vector<bool> written;
+  written.reserve(table.rows.size());
+  for (const ParameterInfo& row : table.rows) written.push_back(row.point < 0);
+  for (const toml::node& name : reader.array("parameters"))
+    if (const auto row = table.find(name.value_or(std::string()))) written[*row] = true;
+  return written;
+}
+
+SpeciesPoint read_species(const SpaceReader& reader, const Encoding& encoding, int dimension) {
   SpeciesPoint species;
   species.name = reader.text("name");
-  const Eigen::VectorXd values = reader.numbers("values", table.rows.size());
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    species.values.push_back(values[static_cast<Index>(row)]);
-    check_value(table.rows[row], species.values[row], toml_location(reader.source, reader.array("values")));
+  species.values = encoding.table().defaults();
+  const Eigen::VectorXd values = reader.numbers("values", of_written_rows(encoding, species.values).size());
+  Index next = 0;
+  for (std::size_t row = 0; row < species.values.size(); ++row) {
+    if (!encoding.writes(row)) continue;
+    species.values[row] = values[next++];
+    check_value(encoding.table().rows[row], species.values[row],
+                toml_location(reader.source, reader.array("values")));
   }
   species.coordinates = reader.numbers("coordinates", static_cast<std::size_t>(dimension));
   species.demonstration = reader.flag("demonstration");
@@ -124,7 +148,8 @@ std::string species_space_to_toml(const SpeciesSpace& space) {
   std::string text = fmt::format(
       "# A species space: for espalier blend, space and fits\nformat = {}\nmodel = {}\nencoding = {}\n",
       kFormat, quote_toml(space.model->table().model), quote_toml(space.encoding->name()));
-  text += fmt::format("parameters = {}\n", names_to_toml(space.model->table().rows, row_name));
+  text += fmt::format("parameters = {}\n",
+                      names_to_toml(of_written_rows(*space.encoding, space.model->table().rows), row_name));
   text += fmt::format("columns = {}\n", names_to_toml(space.encoding->columns(), column_name));
   text +=
       fmt::format("mean = {}\ndeviation = {}  # 0: constant\nvariance = {}\ncomponents = [\n",
@@ -135,7 +160,8 @@ std::string species_space_to_toml(const SpeciesSpace& space) {
   for (const SpeciesPoint& species : space.species)
     text += fmt::format("\n[[species]]\nname = {}\n{}coordinates = {}\nvalues = {}\n",
                         quote_toml(species.name), species.demonstration ? "demonstration = true\n" : "",
-                        numbers_to_toml(species.coordinates), numbers_to_toml(species.values));
+                        numbers_to_toml(species.coordinates),
+                        numbers_to_toml(of_written_rows(*space.encoding, species.values)));
   return text;
 }
 
@@ -148,13 +174,13 @@ SpeciesSpace read_species_space(const std::filesystem::path& path) {
   SpeciesSpace space;
   space.model = &model_by_name(reader.text("model"));
   const ParameterTable& table = space.model->table();
-  space.encoding = make_encoding(reader.text("encoding"), table);
-  reader.check_names("parameters", table.rows, row_name);
+  space.encoding = make_encoding(reader.text("encoding"), table, written_rows(reader, table));
+  reader.check_names("parameters", of_written_rows(*space.encoding, table.rows), row_name);
   reader.check_names("columns", space.encoding->columns(), column_name);
   read_components(reader, space.encoding->columns().size(), space.pca);
   for (const toml::node& node : reader.array("species")) {
     if (!node.is_table()) reader.fail("species", "an array of tables");
-    space.species.push_back(read_species({*node.as_table(), source}, table, space.dimension()));
+    space.species.push_back(read_species({*node.as_table(), source}, *space.encoding, space.dimension()));
   }
   if (space.species.size() < 2) reader.fail("species", "at least 2 of them");
   return space;

@@ -48,7 +48,7 @@ void keep_to_species(const ParameterTable& table, const ParameterValues& species
                      std::span<const double> spread, SearchChoice& choice) {
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const ParameterInfo& info = table.rows[row];
-    if (is_tree_size(info)) continue;
+    if (is_tree_size(info) || info.point >= 0) continue;  // curves are free only where asked for
     if (spread[row] <= 0) {
       choice.fixed.insert({info.full_name(), species[row]});
       continue;

@@ -15,9 +15,9 @@ using RowGroup = std::vector<const ParameterInfo*>;
 
 bool belongs_to(const RowGroup& group, const ParameterInfo& row) {
   const ParameterInfo& first = *group.front();
-  return first.name == row.name && first.lower == row.lower && first.upper == row.upper &&
-         first.search_lower == row.search_lower && first.search_upper == row.search_upper &&
-         first.sign == row.sign && first.scale == row.scale;
+  return first.name == row.name && (first.point < 0) == (row.point < 0) && first.lower == row.lower &&
+         first.upper == row.upper && first.search_lower == row.search_lower &&
+         first.search_upper == row.search_upper && first.sign == row.sign && first.scale == row.scale;
 }
 
 std::vector<RowGroup> group_rows(const ParameterTable& table) {
@@ -29,10 +29,12 @@ std::vector<RowGroup> group_rows(const ParameterTable& table) {
   return groups;
 }
 
-/// "g_scale", "branches[0]", "branches[1..3]".
+/// "g_scale", "branches[0]", "branches[1..3]"; of curves alike.
 std::string group_name(const RowGroup& group) {
-  if (group.size() == 1) return group.front()->full_name();
-  return fmt::format("{}[{}..{}]", group.front()->name, group.front()->level, group.back()->level);
+  const ParameterInfo &first = *group.front(), &last = *group.back();
+  if (group.size() == 1) return first.full_name();
+  if (first.level < 0) return first.name;  // a curve of the whole plant
+  return fmt::format("{}[{}..{}]", first.name, first.level, last.level);
 }
 
 std::string value_name(const ParameterInfo& row, double value) {
@@ -42,6 +44,8 @@ std::string value_name(const ParameterInfo& row, double value) {
 
 std::string defaults_of(const RowGroup& group) {
   std::vector<std::string> values;
+  if (group.front()->point >= 0)
+    return value_name(*group.front(), group.front()->default_value);  // everywhere
   for (const ParameterInfo* row : group) values.push_back(value_name(*row, row->default_value));
   return fmt::format("{}", fmt::join(values, ", "));
 }
@@ -88,6 +92,7 @@ std::string markdown_line(const RowGroup& group) {
 nlohmann::ordered_json row_as_json(const ParameterInfo& row) {
   nlohmann::ordered_json json = {{"name", row.name}, {"full_name", row.full_name()}};
   if (row.level >= 0) json["level"] = row.level;
+  if (row.point >= 0) json["point"] = row.point + 1;
   json.update({{"unit", row.unit},
                {"lower", row.lower},
                {"upper", row.upper},
@@ -121,7 +126,9 @@ std::string parameters_as_markdown(const ParameterTable& table) {
   std::string text = fmt::format(
       "# Parameters of the model `{0}`\n\n"
       "Made by `espalier params --model {0} --format markdown`. A name with levels is an array in a preset,\n"
-      "one value for each level of branching, the trunk first. *Search* is where a fit looks unless told\n"
+      "one value for each level of branching, the trunk first. A curve has 1, 4, 5 or 7 numbers at each "
+      "level:\n"
+      "`\"length_along[1]\" = [0.5, 1, 1, 0.2]`. *Search* is where a fit looks unless told\n"
       "otherwise; *free* says which levels it changes by default, *role* what it is to a fit. Lengths in "
       "metres,\n"
       "angles in degrees.\n\n"

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include <espalier/core/assignment.h>
@@ -30,6 +31,10 @@ bool is_whole(const ParameterInfo& row) {
   return row.scale == Scale::choice || (row.scale == Scale::integer && !row.relaxable);
 }
 
+std::string name_of_level(const std::string& name, int level) {
+  return level < 0 ? name : fmt::format("{}[{}]", name, level);
+}
+
 std::string describe_choices(const ParameterInfo& row) {
   std::string names;
   for (const std::string& choice : row.choices) names += (names.empty() ? "" : ", ") + choice;
@@ -38,11 +43,16 @@ std::string describe_choices(const ParameterInfo& row) {
 
 }  // namespace
 
-std::string ParameterInfo::full_name() const { return level < 0 ? name : fmt::format("{}[{}]", name, level); }
+std::string ParameterInfo::full_name() const {
+  const std::string whole = name_of_level(name, level);
+  return point < 0 ? whole : fmt::format("{}.{}", whole, point + 1);
+}
+
+std::string CurveInfo::full_name() const { return name_of_level(name, level); }
 
 std::optional<std::size_t> ParameterTable::find(std::string_view full_name) const {
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i].full_name() == full_name) return i;
+    if (full_name.starts_with(rows[i].name) && rows[i].full_name() == full_name) return i;
   return std::nullopt;
 }
 
@@ -65,6 +75,33 @@ ParameterValues ParameterTable::defaults() const {
   ParameterValues values;
   for (const ParameterInfo& row : rows) values.push_back(row.default_value);
   return values;
+}
+
+const CurveInfo* ParameterTable::find_curve(std::string_view full_name) const {
+  const auto found = std::find_if(curves.begin(), curves.end(), [&](const CurveInfo& curve) {
+    return full_name.starts_with(curve.name) && curve.full_name() == full_name;
+  });
+  return found == curves.end() ? nullptr : &*found;
+}
+
+const CurveInfo* ParameterTable::curve_of(std::size_t row) const {
+  const auto after =
+      std::upper_bound(curves.begin(), curves.end(), row,
+                       [](std::size_t r, const CurveInfo& curve) { return r < curve.first_row; });
+  return rows[row].point < 0 || after == curves.begin() ? nullptr : &*std::prev(after);
+}
+
+bool is_neutral(const CurveInfo& curve, std::span<const double> values) {
+  const auto numbers = values.subspan(curve.first_row, kCurveRows);
+  return std::all_of(numbers.begin(), numbers.end(), [&](double number) { return number == curve.neutral; });
+}
+
+std::vector<bool> rows_in_use(const ParameterTable& table, std::span<const double> values) {
+  std::vector<bool> in_use(table.rows.size(), true);
+  for (const CurveInfo& curve : table.curves)
+    if (is_neutral(curve, values))
+      std::fill_n(in_use.begin() + static_cast<std::ptrdiff_t>(curve.first_row), kCurveRows, false);
+  return in_use;
 }
 
 bool set_role(const ParameterTable& table, RoleOfLevel role, double value, ParameterValues& values) {

@@ -1,6 +1,7 @@
 // The parameter table of a model: one row a parameter. Reading presets, validation, the search
 // space, the command line and the docs are all made from it (docs/architecture.md).
-// A parameter with a value at each level of branching has one row a level: "curve_v[2]".
+// A parameter with a value at each level of branching has one row a level: "curve_v[2]". A curve, a parameter
+// that changes along a stem, has a row for each of its numbers: "length_along[1].3".
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -29,6 +30,7 @@ enum class FlagSides {
 struct ParameterInfo {
   std::string name;                           ///< without the level: "curve_v"
   int level = -1;                             ///< level of branching 0..3, or -1 for the whole plant
+  int point = -1;                             ///< of a curve: which of its numbers, from 0; else -1
   std::string unit;                           ///< "m", "deg", "1" for ratios and counts
   double lower = 0, upper = 1;                ///< valid values, both ends included
   double search_lower = 0, search_upper = 1;  ///< where a search looks unless told otherwise
@@ -51,7 +53,35 @@ struct ParameterInfo {
   std::string symbol;                ///< the paper's name, where it has another one
   std::string help;                  ///< one line
 
-  /// "curve_v[2]", or "g_scale" where there is no level.
+  /// "curve_v[2]", "g_scale" where there is no level, "length_along[1].3" of the third number of a curve.
+  std::string full_name() const;
+};
+
+/// What a curve is a function of, from 0 to 1.
+enum class CurveArgument {
+  place_on_parent,  ///< of children: from the parent's bare base to its tip
+  along_itself      ///< from the stem's base to its tip
+};
+
+/// What becomes of its values.
+enum class CurveRole {
+  factor,
+  offset,  ///< added
+  density  ///< of children; only relative values count
+};
+
+inline constexpr std::size_t kCurveRows = 7;  ///< of each curve, one after the other
+
+/// What the rows of one curve are together (core/curves/curve.h).
+struct CurveInfo {
+  std::string name;  ///< without the level: "length_along"
+  int level = -1;    ///< as of its rows
+  std::size_t first_row = 0;
+  CurveArgument argument = CurveArgument::along_itself;
+  CurveRole role = CurveRole::factor;
+  double neutral = 1;  ///< where all numbers are this, nothing changes
+
+  /// "length_along[1]", or "leaf_scale_along" where there is no level.
   std::string full_name() const;
 };
 
@@ -61,6 +91,7 @@ using ParameterValues = std::vector<double>;
 struct ParameterTable {
   std::string model;  ///< "weber_penn"
   std::vector<ParameterInfo> rows;
+  std::vector<CurveInfo> curves = {};  ///< in the order of their rows
 
   std::optional<std::size_t> find(std::string_view full_name) const;
   /// The row that bears the role; roles that go by level are of `level`.
@@ -68,7 +99,17 @@ struct ParameterTable {
   /// The row index; throws InputError naming the closest known parameter where there is none.
   std::size_t index_of(std::string_view full_name) const;
   ParameterValues defaults() const;
+  /// The curve of this full name; nullptr where there is none.
+  const CurveInfo* find_curve(std::string_view full_name) const;
+  /// The curve that a row is a number of; nullptr where it is of none.
+  const CurveInfo* curve_of(std::size_t row) const;
 };
+
+/// Whether the curve changes nothing.
+bool is_neutral(const CurveInfo& curve, std::span<const double> values);
+
+/// Rows that say something of the plant: all but those of neutral curves.
+std::vector<bool> rows_in_use(const ParameterTable& table, std::span<const double> values);
 
 /// Sets the row of this role, if there is one, to the valid value nearest to `value`. False where there is
 /// none.

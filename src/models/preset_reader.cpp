@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <optional>
 
+#include <espalier/core/curves/parameter_curves.h>
 #include <espalier/core/error.h>
 #include <espalier/core/toml/toml_file.h>
 #include <espalier/models/preset_reader.h>
@@ -13,7 +14,8 @@ namespace {
 std::vector<std::string> known_keys(const ParameterTable& table, std::span<const std::string> other_keys) {
   std::vector<std::string> keys(other_keys.begin(), other_keys.end());
   for (const ParameterInfo& row : table.rows)
-    if (keys.empty() || keys.back() != row.name) keys.push_back(row.name);
+    if (row.point < 0 && (keys.empty() || keys.back() != row.name)) keys.push_back(row.name);
+  for (const CurveInfo& curve : table.curves) keys.push_back(curve.full_name());
   return keys;
 }
 
@@ -42,6 +44,25 @@ double read_value(const ParameterInfo& row, const toml::node& node, const std::s
   return *value;
 }
 
+/// The numbers of a curve: one, or an array of 1, 4, 5 or 7.
+void read_curve(const CurveInfo& curve, const toml::node& node, const std::string& source,
+                const ParameterTable& table, ParameterValues& values) {
+  const std::string where = toml_location(source, node);
+  std::vector<double> numbers;
+  const auto take = [&](const toml::node& one) {
+    const auto value = number(one);
+    if (!value)
+      throw_input_error("{}: key '{}': got {}, expected {}", toml_location(source, one), curve.full_name(),
+                        describe_toml(one), describe_valid_values(table.rows[curve.first_row]));
+    numbers.push_back(*value);
+  };
+  if (const toml::array* array = node.as_array())
+    for (const toml::node& one : *array) take(one);
+  else
+    take(node);
+  set_curve(table, curve, numbers, where, values);
+}
+
 void check_is_array(std::string_view key, const toml::node& node, std::size_t max_size,
                     const std::string& source) {
   const toml::array* array = node.as_array();
@@ -68,7 +89,7 @@ std::vector<std::size_t> rows_of_key(const ParameterTable& table, std::string_vi
   if (const auto row = table.find(key)) return {*row};
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < table.rows.size(); ++i)
-    if (table.rows[i].name == key) rows.push_back(i);
+    if (table.rows[i].name == key && table.rows[i].point < 0) rows.push_back(i);
   if (!rows.empty()) return rows;
   for (const char component : {'x', 'y', 'z'}) {
     const auto row = table.find(fmt::format("{}_{}", key, component));
@@ -83,12 +104,17 @@ void read_parameters(const toml::table& document, const std::string& source, con
   for (const auto& [toml_key, node] : document) {
     const std::string key(toml_key.str());
     if (std::find(other_keys.begin(), other_keys.end(), key) != other_keys.end()) continue;
+    if (const CurveInfo* curve = table.find_curve(key)) {
+      read_curve(*curve, node, source, table, values);
+      continue;
+    }
     const std::vector<std::size_t> rows = rows_of_key(table, key);
     if (rows.empty())
       throw_input_error("{}: key '{}': got an unknown key, expected one like '{}'",
                         toml_location(source, node), key, closest_name(key, known_keys(table, other_keys)));
     read_key(key, node, source, table, rows, values);
   }
+  check_densities(table, values, source);
 }
 
 }  // namespace espalier

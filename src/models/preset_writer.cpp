@@ -1,5 +1,8 @@
 // Writes a preset as TOML in the order of its model's table, a line a key with its unit and help;
 // load_preset reads it back to the same bits. Numbers are the shortest decimals that do so (fmt's default).
+#include <fmt/ranges.h>
+
+#include <espalier/core/curves/parameter_curves.h>
 #include <espalier/core/error.h>
 #include <espalier/core/toml/toml_file.h>
 #include <espalier/models/models.h>
@@ -28,6 +31,12 @@ std::string assignment(const ParameterTable& table, const std::string& key, cons
                                        : fmt::format("{} = [{}]", key, list);
 }
 
+/// "\"length_along[1]\" = [0.4, 1.1, 1.1, 0.9, 0.6, 0.4, 0.2]", without the comment.
+std::string assignment(const CurveInfo& curve, const ParameterValues& values) {
+  return fmt::format("{} = [{}]", quote_toml(curve.full_name()),
+                     fmt::join(shortest_numbers(curve, values), ", "));
+}
+
 std::string comment(const ParameterInfo& row) {
   return row.unit.empty() || row.unit == "1" ? row.help : fmt::format("{}: {}", row.unit, row.help);
 }
@@ -48,9 +57,13 @@ std::string preset_to_toml(const Preset& preset, const ParameterTable& table) {
   if (preset.demonstration) text += "demonstration = true\n";
   text += "\n";
   for (std::size_t i = 0; i < table.rows.size(); ++i)
-    if (i == 0 || table.rows[i].name != table.rows[i - 1].name)
+    if (table.rows[i].point < 0 && (i == 0 || table.rows[i].name != table.rows[i - 1].name))
       text += fmt::format("{:<36}  # {}\n", assignment(table, table.rows[i].name, preset.values),
                           comment(table.rows[i]));
+  for (const CurveInfo& curve : table.curves)
+    if (!is_neutral(curve, preset.values))
+      text += fmt::format("{:<36}  # {}\n", assignment(curve, preset.values),
+                          comment(table.rows[curve.first_row]));
   return text + overrides_to_toml(preset.overrides) + grown_into_to_toml(preset.grown_into);
 }
 

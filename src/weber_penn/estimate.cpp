@@ -52,19 +52,38 @@ Clones expected_clones(const WeberPennParameters& p, int level) {
   return {total, leaf_sum / segments, child_sum / segments};
 }
 
+constexpr int kSamples = 8;
+
+/// Mean length of first-level branches relative to the longest of their kind.
+double mean_length_share(const WeberPennParameters& p) {
+  double sum = 0;
+  const AlongCurve& along = p.curves.length_along[1];
+  for (int sample = 0; sample < kSamples; ++sample) {
+    const float ratio = (static_cast<float>(sample) + 0.5f) / kSamples;  // from the top down
+    const float shape = crown_shape_ratio(ratio, p);
+    sum += along.is_neutral ? shape : shape * along.at(1 - ratio);
+  }
+  return sum / kSamples;
+}
+
+double mean_of(const AlongCurve& along) {
+  if (along.is_neutral) return 1;
+  double sum = 0;
+  for (int sample = 0; sample < kSamples; ++sample)
+    sum += along.at((static_cast<float>(sample) + 0.5f) / kSamples);
+  return sum / kSamples;
+}
+
 /// Mean number of children of a stem relative to branches[level + 1].
 double mean_child_share(const WeberPennParameters& p, int level) {
   if (level == 0) return 1;
   if (level > 1) return 0.75;
-  double sum = 0;
-  constexpr int kSamples = 8;
-  for (int sample = 0; sample < kSamples; ++sample) sum += crown_shape_ratio((sample + 0.5f) / kSamples, p);
-  return 0.2 + 0.8 * sum / kSamples;
+  return 0.2 + 0.8 * mean_length_share(p);
 }
 
 double mean_leaf_share(const WeberPennParameters& p, int level) {
   if (level < 2) return level == 0 ? 1 : mean_child_share(p, 1) * 1.25 - 0.25;
-  return 0.65;
+  return 0.65 * mean_of(p.curves.length_along[level_index(level)]);
 }
 
 }  // namespace

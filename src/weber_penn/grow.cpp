@@ -87,6 +87,7 @@ class Growth {
   bool change_trunk(GrowingStem& trunk) const;
   void grow_child(const GrowingStem& parent, std::int32_t parent_index, const ChildSite& site);
   float child_length_m(const GrowingStem& parent, const ChildSite& site) const;
+  float shaped_length_m(const GrowingStem& parent, const ChildSite& site) const;
   bool prune(GrowingStem& stem) const;
   double over_budget_factor() const;
 
@@ -236,8 +237,14 @@ std::size_t Growth::grow_next(std::size_t index) {
   return 1;
 }
 
-/// Level 1 follows the crown's shape, deeper levels their place on the parent [Weber & Penn 95, §4.4].
 float Growth::child_length_m(const GrowingStem& parent, const ChildSite& site) const {
+  const AlongCurve& along = p_.curves.length_along[level_index(parent.level + 1)];
+  const float shaped_m = shaped_length_m(parent, site);
+  return along.is_neutral ? shaped_m : shaped_m * along.at(place_above_base(parent, site.offset_m, p_));
+}
+
+/// Level 1 follows the crown's shape, deeper levels their place on the parent [Weber & Penn 95, §4.4].
+float Growth::shaped_length_m(const GrowingStem& parent, const ChildSite& site) const {
   const float longest_m = parent.length_m * parent.child_max;
   if (parent.level > 0) return parent.child_max * (parent.length_m - 0.7f * site.offset_m);
   const float ratio = (parent.length_m - site.offset_m) / (parent.length_m - parent.tree.base_length_m);

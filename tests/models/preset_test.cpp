@@ -96,6 +96,9 @@ TEST(Preset, WritingAndReadingKeepsEveryBit) {
   EXPECT_TRUE(rc::check([&] {
     Preset preset{"a \"name\"", "tab\t, back\\slash, line\nfeed, ü", "weber_penn", {}};
     for (const ParameterInfo& row : table.rows) preset.values.push_back(*valid_value(row));
+    for (const CurveInfo& curve : table.curves)  // a density of 0 everywhere is refused
+      if (curve.role == CurveRole::density)
+        preset.values[curve.first_row] += preset.values[curve.first_row] == 0;
     preset.demonstration = *rc::gen::arbitrary<bool>();
     if (*rc::gen::arbitrary<bool>()) preset.seed = *rc::gen::element<Seed>(0, 7, Seed{1} << 63, ~Seed{0});
     const Preset again = load_preset(folder.write("random.toml", preset_to_toml(preset)));
@@ -107,6 +110,77 @@ TEST(Preset, WritingAndReadingKeepsEveryBit) {
       RC_ASSERT(std::bit_cast<std::uint64_t>(again.values[i]) ==
                 std::bit_cast<std::uint64_t>(preset.values[i]));
   }));
+}
+
+/// What a preset of one line says is wrong with it.
+std::string error_of_line(const std::string& line) {
+  const PresetFolder folder;
+  try {
+    load_preset(folder.write("curve.toml", "model = \"weber_penn\"\n" + line + "\n"));
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    return text.substr(text.find("curve.toml"));
+  }
+  return "no error";
+}
+
+TEST(PresetCurves, AreReadFromOneFourFiveOrSevenNumbers) {
+  const PresetFolder folder;
+  const auto values_of = [&](const std::string& numbers) {
+    const std::string line = fmt::format("\"length_along[1]\" = {}\n", numbers);
+    return load_preset(folder.write("curve.toml", "model = \"weber_penn\"\n" + line)).values;
+  };
+  const ParameterTable& table = model_by_name("weber_penn").table();
+  const auto numbers_in = [&](const ParameterValues& values) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(table.index_of("length_along[1].1"));
+    return std::vector<double>(first, first + 7);
+  };
+  EXPECT_THAT(numbers_in(values_of("1.5")), testing::Each(1.5));
+  EXPECT_THAT(numbers_in(values_of("[2]")), testing::Each(2));
+  EXPECT_THAT(numbers_in(values_of("[0, 1, 2, 3]")), testing::ElementsAre(0, 0.25, 0.75, 1.5, 2.25, 2.75, 3));
+  EXPECT_THAT(numbers_in(values_of("[1, 2, 3, 4, 5, 6, 7]")), testing::ElementsAre(1, 2, 3, 4, 5, 6, 7));
+  ParameterValues rest = values_of("[0, 1, 2, 3]");
+  for (int point = 1; point <= 7; ++point) rest[table.index_of(fmt::format("length_along[1].{}", point))] = 1;
+  EXPECT_EQ(rest, table.defaults());
+}
+
+TEST(PresetCurves, AreWrittenWhereTheyChangeSomething) {
+  const ParameterTable& table = model_by_name("weber_penn").table();
+  Preset preset{"a", "", "weber_penn", table.defaults()};
+  EXPECT_THAT(preset_to_toml(preset), testing::Not(testing::HasSubstr("_along")));
+  for (int point = 1; point <= 7; ++point)
+    preset.values[table.index_of(fmt::format("radius_along[2].{}", point))] = 1.5;
+  EXPECT_THAT(preset_to_toml(preset), testing::HasSubstr("\n\"radius_along[2]\" = [1.5] "));
+  preset.values[table.index_of("radius_along[2].4")] = 0.25;
+  EXPECT_THAT(preset_to_toml(preset),
+              testing::HasSubstr("\n\"radius_along[2]\" = [1.5, 1.5, 1.5, 0.25, 1.5, 1.5, 1.5] "));
+}
+
+TEST(PresetCurves, BadOnesAreRefused) {
+  const std::map<std::string, std::string> errors{
+      {"\"length_along[1]\" = [1, 2]",
+       "curve.toml:2: key 'length_along[1]': got 2 numbers, expected 1, 4, 5 or 7 of a function"},
+      {"\"length_along[1]\" = [1, 2, 3]",
+       "curve.toml:2: key 'length_along[1]': got 3 numbers, expected 1, 4, 5 or 7 of a function"},
+      {"\"length_along[1]\" = [1, 2, 3, 4, 5, 6]",
+       "curve.toml:2: key 'length_along[1]': got 6 numbers, expected 1, 4, 5 or 7 of a function"},
+      {"\"length_along[1]\" = nan", "curve.toml:2: key 'length_along[1]': got nan, expected a number 0..10"},
+      {"\"length_along[1]\" = [1, nan, 1, 1]",
+       "curve.toml:2: key 'length_along[1]': got nan, expected a number 0..10"},
+      {"\"radius_along[0]\" = [1, 1, -0.1, 1]",
+       "curve.toml:2: key 'radius_along[0]': got -0.1, expected a number 0..10"},
+      {"\"density_along[2]\" = [0, -1, 0, 0]",
+       "curve.toml:2: key 'density_along[2]': got -1, expected a number 0..20"},
+      {"leaf_density_along = [0, 0, 0, 0]",
+       "curve.toml:2: key 'leaf_density_along': got a density of 0 everywhere, expected a number above 0"},
+      {"leaf_scale_along = [1, \"two\", 1, 1]",
+       "curve.toml:2: key 'leaf_scale_along': got 'two', expected a number 0..10"},
+      {"length_along = [1, 1, 1, 1]",
+       "curve.toml:2: key 'length_along': got an unknown key, expected one like 'length_along[1]'"},
+      {"\"density_along[0]\" = 1",
+       "curve.toml:2: key 'density_along[0]': got an unknown key, expected one like 'density_along[1]'"},
+  };
+  for (const auto& [line, error] : errors) EXPECT_EQ(error_of_line(line), error);
 }
 
 TEST(Preset, GrowsWithItsSeedUnlessAnotherIsAskedFor) {

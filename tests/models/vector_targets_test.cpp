@@ -45,13 +45,15 @@ TEST(VectorTargets, AllGiveTheSameBits) {
   }
 }
 
-/// A bundled preset in which about a third of the parameters have any value of their search bounds.
+/// A bundled preset in which about a third of the parameters have any value of their search bounds; curves in
+/// one tree of two.
 ParameterValues any_values(const ParameterTable& table, RandomKey key) {
   const std::vector<std::string> presets = bundled_presets();
   ParameterValues values = load_preset(presets[random_bits(key, 0) % presets.size()]).values;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const ParameterInfo& row = table.rows[i];
     if (uniform_unit(key, 1, static_cast<std::uint32_t>(i)) > 0.3f) continue;
+    if (row.point >= 0 && random_bits(key, 3) % 2 == 0) continue;
     const double share = uniform_unit(key, 2, static_cast<std::uint32_t>(i));
     values[i] = row.search_lower + share * (row.search_upper - row.search_lower);
     if (row.scale == Scale::integer || row.scale == Scale::choice) values[i] = std::round(values[i]);

@@ -15,7 +15,7 @@ class ToyModel : public Model {
     for (std::size_t i = 0; i < table_.rows.size(); ++i) {
       ParameterInfo& row = table_.rows[i];
       row.name = "knob_" + std::to_string(i);
-      row.level = -1;
+      row.level = row.point = -1;
       row.needs.clear();
       row.mixed_with = row.mixed_by = "";
     }

@@ -1,8 +1,10 @@
 // Options of commands that grow one plant: preset, seed, changed parameters, pruning volume.
 #include <CLI/CLI.hpp>
+#include <sstream>
 
 #include <espalier/app/options/plant_options.h>
 #include <espalier/core/assignment.h>
+#include <espalier/core/curves/parameter_curves.h>
 #include <espalier/core/field_error.h>
 #include <espalier/environment/volume.h>
 #include <espalier/lsystem/derivation/derivation.h>
@@ -19,6 +21,21 @@ std::string reject_negative(const std::string& text) {
   return text.starts_with('-') ? "got " + text + ", expected a whole number from 0" : "";
 }
 
+/// "[0.4, 1, 0.2, 1]" or "0.4,1,0.2,1".
+std::vector<double> parse_numbers(const std::string& text) {
+  std::string plain = text;
+  std::erase(plain, ' ');
+  if (plain.starts_with('[') && plain.ends_with(']')) plain = plain.substr(1, plain.size() - 2);
+  std::vector<double> numbers;
+  std::istringstream parts(plain);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const auto number = parse_decimal(part);
+    if (!number) throw_input_error("got '{}', expected 1, 4, 5 or 7 numbers with commas between", text);
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
 }  // namespace
 
 void set_parameters(const std::vector<std::string>& assignments, const ParameterTable& table,
@@ -26,8 +43,11 @@ void set_parameters(const std::vector<std::string>& assignments, const Parameter
   for (const std::string& text : assignments)
     in_field("set", [&] {
       const Assignment assignment = parse_assignment(text);
+      if (const CurveInfo* curve = table.find_curve(assignment.name))
+        return set_curve(table, *curve, parse_numbers(assignment.value), text, values);
       const std::size_t row = table.index_of(assignment.name);
       values[row] = parse_parameter_value(table.rows[row], assignment.value);
+      check_densities(table, values, text);
     });
 }
 
@@ -40,7 +60,10 @@ void add_plant_options(CLI::App& command, PlantOptions& options) {
       ->required();
   command.add_option("--seed", options.seed, "seed of the random numbers (default: the preset's, or 1)")
       ->check(reject_negative);
-  command.add_option("--set", options.assignments, "change a parameter: name=value (repeatable)")
+  command
+      .add_option(
+          "--set", options.assignments,
+          "change a parameter: name=value, of a curve 1, 4, 5 or 7 numbers: name=0.5,1,1,0.2 (repeatable)")
       ->allow_extra_args(false);
   command.add_option("--steps", options.steps, "derivation steps of an L-system; else those the file says");
   command.add_option(

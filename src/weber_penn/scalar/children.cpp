@@ -53,6 +53,8 @@ ChildPlacer::ChildPlacer(const GrowingStem& stem, Bears bears, const WeberPennPa
           bears == Bears::leaves ? leaf_count(stem, parameters) : child_stem_count(stem, parameters))),
       child_level_(level_index(stem.level + 1)),
       distribution_(parameters.branch_dist[child_level_]),
+      spacing_(bears == Bears::leaves ? leaf_spacing(stem.level, parameters)
+                                      : stem_spacing(stem.level, parameters)),
       rotation_deg_(360 * draw_unit(stem.key, Draw::child_rotation_start)) {}
 
 void ChildPlacer::begin(const GrowingStem& stem, const Segment& segment) {
@@ -62,7 +64,11 @@ void ChildPlacer::begin(const GrowingStem& stem, const Segment& segment) {
   last_segment_ = segment.z_end >= 1;
   const float grown_part = 1 - static_cast<float>(stem.first_segment) / static_cast<float>(segments);
   const float share = bears_ == Bears::leaves ? grown_part : stem.child_share;
-  if (share != share_) {
+  if (!spacing_.is_even()) {
+    part_ = spacing_.part_of(segment.z_start, segment.z_end);
+    rate_ = std::max(0.f, count_) * share * part_.share();
+    inverse_rate_ = 1 / rate_;
+  } else if (share != share_) {
     share_ = share;
     rate_ = std::max(0.f, count_) * share / static_cast<float>(segments);
     inverse_rate_ = 1 / rate_;
@@ -84,6 +90,11 @@ bool ChildPlacer::next_slot(ChildSlot& slot) {
   return distribution_ > 1 ? next_in_whorl(slot) : next_along(slot);
 }
 
+float ChildPlacer::along_segment(float share) const {
+  const float inside = std::clamp(share, 0.f, 1.f);
+  return spacing_.is_even() ? inside : spacing_.along(part_, inside);
+}
+
 bool ChildPlacer::next_run(ChildRun& run) {
   if (count_ < 0 || distribution_ > 1 || placed_ >= whole_) return false;
   run.first = placed_;
@@ -93,6 +104,7 @@ bool ChildPlacer::next_run(ChildRun& run) {
   run.t_start = (static_cast<float>(run.first) - before_) * inverse_rate_ - (starts_odd ? shift : 0);
   run.t_step = inverse_rate_;
   run.t_odd = starts_odd ? shift : -shift;
+  if (!spacing_.is_even()) put_apart(run);
   run.roll_deg = rolls_deg_.data();
   const auto rolls_deg = std::span(rolls_deg_).first(static_cast<std::size_t>(run.count));
   const float rotate = p_.rotate[child_level_];
@@ -111,6 +123,15 @@ bool ChildPlacer::next_run(ChildRun& run) {
   return true;
 }
 
+/// The places of children that are not evenly spaced.
+void ChildPlacer::put_apart(ChildRun& run) {
+  for (int k = 0; k < run.count; ++k) {
+    const float even = run.t_start + static_cast<float>(k) * run.t_step + (k % 2 == 1 ? run.t_odd : 0);
+    places_[static_cast<std::size_t>(k)] = along_segment(even);
+  }
+  run.t = places_.data();
+}
+
 bool ChildPlacer::next_along(ChildSlot& slot) {
   if (!(rate_ > 0)) return false;
   const float missing = static_cast<float>(placed_ + 1) - reached_;
@@ -119,7 +140,7 @@ bool ChildPlacer::next_along(ChildSlot& slot) {
   if (!is_whole && !relaxed_last) return false;
   const float shift = placed_ % 2 == 1 ? distribution_ : 0;  // 1: opposite the one before it
   const float t = (static_cast<float>(placed_) - shift - before_) * inverse_rate_;
-  slot = {placed_, std::clamp(t, 0.f, 1.f), next_rotation_deg(), is_whole ? 1 : 1 - missing};
+  slot = {placed_, along_segment(t), next_rotation_deg(), is_whole ? 1 : 1 - missing};
   ++placed_;
   return true;
 }
@@ -140,7 +161,7 @@ bool ChildPlacer::next_in_whorl(ChildSlot& slot) {
     const float t = (whorl_center - before_) * inverse_rate_;
     const float roll_deg =
         rotation_deg_ + 360.f * static_cast<float>(in_whorl_++) / members + jitter_deg(placed_);
-    slot = {placed_++, std::clamp(t, 0.f, 1.f), roll_deg, 1};
+    slot = {placed_++, along_segment(t), roll_deg, 1};
     return true;
   }
   return false;
@@ -201,8 +222,14 @@ float ChildPlacer::next_rotation_deg() {
   return rotation_deg_;
 }
 
-/// down_angle_v < 0: the angle changes along the parent by the conical shape, then ±10 % [WP §4.3].
 float ChildPlacer::down_angle_deg(float offset_m, int index) const {
+  const AlongCurve& along = p_.curves.down_angle_along[child_level_];
+  const float drawn_deg = drawn_down_angle_deg(offset_m, index);
+  return along.is_neutral ? drawn_deg : drawn_deg + along.at(place_above_base(*stem_, offset_m, p_));
+}
+
+/// down_angle_v < 0: the angle changes along the parent by the conical shape, then ±10 % [WP §4.3].
+float ChildPlacer::drawn_down_angle_deg(float offset_m, int index) const {
   const float angle = p_.down_angle[child_level_], variation = p_.down_angle_v[child_level_];
   const float jitter = draw_signed(stem_->key, Draw::child_down_angle, index);
   if (variation >= 0) return angle + jitter * variation;

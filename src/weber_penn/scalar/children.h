@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 
+#include <espalier/weber_penn/scalar/child_spacing.h>
 #include <espalier/weber_penn/scalar/stem_walk.h>
 
 namespace espalier {
@@ -15,11 +16,12 @@ struct ChildSlot {
   float grown_fraction = 1;  ///< under 1 for the last child of a relaxed count
 };
 
-/// Children of one segment that are evenly spaced: child k of `count` is child first + k of the parent. It
-/// sits at t_start + k·t_step (t_odd further where k is odd) along the segment, clamped to it.
+/// Children of one segment: child k of `count` is child first + k of the parent. Evenly spaced it sits at
+/// t_start + k·t_step (t_odd further where k is odd) along the segment, clamped to it; else at t[k].
 struct ChildRun {
   int first = 0, count = 0;
   float t_start = 0, t_step = 0, t_odd = 0;
+  const float* t = nullptr;         ///< in [0, 1]; 7 numbers more can be read
   const float* roll_deg = nullptr;  ///< of each about the parent; 7 numbers more can be read
 };
 
@@ -86,17 +88,22 @@ class ChildPlacer {
   bool next_in_whorl(ChildSlot& slot);
   bool next_in_fan(ChildSite& site);
   bool site_at(const ChildSlot& slot, ChildSite& site) const;
+  float along_segment(float share) const;
+  void put_apart(ChildRun& run);
   float next_rotation_deg();
   float jitter_deg(int index) const;
   float down_angle_deg(float offset_m, int index) const;
+  float drawn_down_angle_deg(float offset_m, int index) const;
 
   const WeberPennParameters& p_;
   Bears bears_;
   const GrowingStem* stem_;
   const Segment* segment_ = nullptr;
   float count_;
-  int child_level_;                    ///< index of the child's level values
-  float distribution_;                 ///< branch_dist
+  int child_level_;     ///< index of the child's level values
+  float distribution_;  ///< branch_dist
+  ChildSpacing spacing_;
+  ChildSpacing::Part part_;            ///< of the segment, where children are not evenly spaced
   float reached_ = 0, before_ = 0;     ///< running count after and before this segment
   float share_ = 0;                    ///< of the children that the stem would bear unsplit
   float rate_ = 0, inverse_rate_ = 0;  ///< children per segment
@@ -105,7 +112,7 @@ class ChildPlacer {
   int whorl_ = 0, in_whorl_ = 0;
   float rotation_deg_;
   bool last_segment_ = false;
-  std::array<float, kMostInRun + 8> rolls_deg_;
+  std::array<float, kMostInRun + 8> rolls_deg_, places_;
 };
 
 }  // namespace espalier

@@ -37,8 +37,10 @@ void place_leaf(const GrowingStem& stem, const ChildSite& site, const WeberPennP
   leaves.axis.push_back(leaf.forward);
   leaves.side.push_back(leaf.right);
   const bool is_leaf = leaf_kind(stem, site.index, p) == LeafKind::leaf;
-  const float length_m =
-      (is_leaf ? p.leaf_scale : p.blossom_scale) * leaf_growth(stem, site.grown_fraction, p);
+  const AlongCurve& along = p.curves.leaf_scale_along;
+  const float growth = leaf_growth(stem, site.grown_fraction, p),
+              factor = along.is_neutral ? 1 : along.at(place_above_base(stem, site.offset_m, p));
+  const float length_m = (is_leaf ? p.leaf_scale : p.blossom_scale) * (growth * factor);
   leaves.length_m.push_back(length_m);
   leaves.width_m.push_back(length_m * (is_leaf ? p.leaf_scale_x : 1));
   leaves.kind.push_back(is_leaf ? LeafKind::leaf : LeafKind::blossom);

@@ -12,7 +12,7 @@ void place_leaf(const GrowingStem& stem, const ChildSite& site, const WeberPennP
 /// Whether child `index` of `stem` is a leaf or a blossom.
 LeafKind leaf_kind(const GrowingStem& stem, int index, const WeberPennParameters& parameters);
 
-/// Factor on leaf_scale and blossom_scale.
+/// Factor on leaf_scale and blossom_scale, but for that of leaf_scale_along.
 float leaf_growth(const GrowingStem& stem, float grown_fraction, const WeberPennParameters& parameters);
 
 }  // namespace espalier

@@ -94,7 +94,15 @@ inline int segment_count(const WeberPennParameters& parameters, int level) {
   return segments > 1 ? segments : 1;
 }
 
-/// Radius at z = 0 (base) … 1 (tip) by the four regimes of taper, with the flare of trunks [WP §4.4].
+/// Where a child at `offset_m` along this stem is: 0 at the bare base, 1 at the tip.
+inline float place_above_base(const GrowingStem& stem, float offset_m,
+                              const WeberPennParameters& parameters) {
+  const float bare = parameters.base_size[level_index(stem.level)];
+  return (offset_m / stem.length_m - bare) / (1 - bare);
+}
+
+/// Radius at z = 0 (base) … 1 (tip) by the four regimes of taper, with the flare of trunks [WP §4.4], times
+/// radius_along.
 float stem_radius_m(const GrowingStem& stem, float z, const WeberPennParameters& parameters);
 
 }  // namespace espalier

@@ -1,5 +1,5 @@
 // The radius along a stem: cylinder, cone, rounded end and periodic swelling, and the flare of the
-// trunk's foot [Weber & Penn 95, §4.4; CH, Appendix C: taper].
+// trunk's foot [Weber & Penn 95, §4.4; CH, Appendix C: taper]; times the curve radius_along.
 #include <cmath>
 
 #include <espalier/weber_penn/scalar/stem.h>
@@ -38,7 +38,9 @@ float stem_radius_m(const GrowingStem& stem, float z, const WeberPennParameters&
   const float taper = parameters.taper[level_index(stem.level)];
   float radius_m = stem.radius_m * (1 - unit_taper(taper) * z);
   if (taper >= 1) radius_m = swollen_radius_m(taper, radius_m, (1 - z) * stem.length_m);
-  return stem.level == 0 ? radius_m * flare_factor(parameters.flare, z) : radius_m;
+  if (stem.level == 0) radius_m *= flare_factor(parameters.flare, z);
+  const AlongCurve& along = parameters.curves.radius_along[level_index(stem.level)];
+  return along.is_neutral ? radius_m : radius_m * std::fmax(0.f, along.at(z));
 }
 
 }  // namespace espalier

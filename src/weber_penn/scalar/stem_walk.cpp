@@ -17,15 +17,18 @@ float jitter_deg(const GrowingStem& stem, Draw purpose, int at, float most, int 
 float curve_angle_deg(const GrowingStem& stem, int at, int segments, const WeberPennParameters& p) {
   const int level = level_index(stem.level);
   const float jitter = jitter_deg(stem, Draw::curve, at, p.curve_v[level], segments);
-  if (p.curve_back[level] == 0) return p.curve[level] / segments + jitter;
+  const float factor = curve_factor(level, at, segments, p);
+  if (p.curve_back[level] == 0) return (p.curve[level] / segments + jitter) * factor;
   const bool first_half = 2 * at <= segments;
-  return (first_half ? p.curve[level] : p.curve_back[level]) * 2 / segments + jitter;
+  return ((first_half ? p.curve[level] : p.curve_back[level]) * 2 / segments + jitter) * factor;
 }
 
 /// Turns at segment end `at` where the stem does not split.
 void turn(GrowingStem& stem, int at, const WeberPennParameters& p) {
   const int segments = segment_count(p, stem.level);
-  const float bend_deg = jitter_deg(stem, Draw::bend, at, p.bend_v[level_index(stem.level)], segments);
+  const int level = level_index(stem.level);
+  const float bend_deg =
+      jitter_deg(stem, Draw::bend, at, p.bend_v[level], segments) + steady_bend_deg(level, at, segments, p);
   if (bend_deg != 0) stem.turtle.turn_left(bend_deg);
   const float back_deg = 2 * at > segments ? 2 * stem.extra_curve.back_deg : 0;
   const float extra_deg = (stem.extra_curve.whole_deg + back_deg) / static_cast<float>(segments);

@@ -20,6 +20,19 @@ Vec3 segment_tangent(const Segment& segment, float t);  ///< unit
 /// How much an override bends a stem of this level more than the parameters do.
 ExtraCurve extra_curve(const BranchChange* change, int level, const WeberPennParameters& parameters);
 
+/// Factor of curve_along on the bend at segment end `at` of a stem of this level index.
+inline float curve_factor(int level, int at, int segments, const WeberPennParameters& p) {
+  const AlongCurve& along = p.curves.curve_along[level];
+  return along.is_neutral ? 1 : along.at(static_cast<float>(at) / static_cast<float>(segments));
+}
+
+/// The sideways bend there by bend_along, which is nowhere random.
+inline float steady_bend_deg(int level, int at, int segments, const WeberPennParameters& p) {
+  const AlongCurve& along = p.curves.bend_along[level];
+  if (along.is_neutral) return 0;
+  return along.at(static_cast<float>(at) / static_cast<float>(segments)) / static_cast<float>(segments);
+}
+
 class StemVisitor {
  public:
   virtual ~StemVisitor() = default;

@@ -16,6 +16,12 @@
 #ifndef ESPALIER_WEBER_PENN_SPREAD_RUN
 #define ESPALIER_WEBER_PENN_SPREAD_RUN
 namespace espalier {
+/// The growth of children: of all of them, times a curve along the parent above its bare base.
+struct ChildGrowth {
+  float share;
+  const AlongCurve& along;
+};
+
 /// Children [first, first + count) of a stem.
 struct SpreadRun {
   const StemCurve& curve;
@@ -46,25 +52,36 @@ class Rows {
         p_(p),
         children_(children),
         level_(level_index(stem.level)),
-        child_level_(level_index(stem.level + 1)) {}
+        child_level_(level_index(stem.level + 1)),
+        per_crown_(1 / (1 - p.base_size[level_])) {}
 
   /// Children `index` … at z along the stem.
-  HWY_INLINE void put(const OnCurve& curve, Vector z, Vector roll_deg, float growth, int index,
+  HWY_INLINE void put(const OnCurve& curve, Vector z, Vector roll_deg, const ChildGrowth& growth, int index,
                       std::size_t at) {
     const Floats d;
     store(curve.point, children_.point, at);
     store(curve.tangent, children_.tangent, at);
     store(curve.across, children_.across, at);
-    hn::StoreU(radius_at(stem_, z, p_.taper[level_]), d, &children_.parent_radius_m[at]);
+    hn::StoreU(radius_at(stem_, z, p_), d, &children_.parent_radius_m[at]);
     hn::StoreU(roll_deg, d, &children_.roll_deg[at]);
-    hn::StoreU(down_deg(z, index), d, &children_.down_deg[at]);
+    const AlongCurve& down_along = p_.curves.down_angle_along[child_level_];
+    const Vector drawn_deg = down_deg(z, index);
+    hn::StoreU(down_along.is_neutral ? drawn_deg : hn::Add(drawn_deg, curve_at(down_along, above_base(z))), d,
+               &children_.down_deg[at]);
     hn::StoreU(hn::Mul(z, set(stem_.length_m)), d, &children_.offset_m[at]);
-    hn::StoreU(set(growth), d, &children_.growth[at]);
+    const Vector share = set(growth.share);
+    hn::StoreU(growth.along.is_neutral ? share : hn::Mul(share, curve_at(growth.along, above_base(z))), d,
+               &children_.growth[at]);
     hn::StoreU(counted_from(index), Integers(), &children_.index[at]);
   }
 
  private:
-  /// ChildPlacer::down_angle_deg.
+  /// place_above_base.
+  HWY_INLINE Vector above_base(Vector z) const {
+    return hn::Mul(hn::Sub(z, set(p_.base_size[level_])), set(per_crown_));
+  }
+
+  /// ChildPlacer::drawn_down_angle_deg.
   HWY_INLINE Vector down_deg(Vector z, int index) const {
     const float angle = p_.down_angle[child_level_], variation = p_.down_angle_v[child_level_];
     if (variation == 0) return set(angle);
@@ -82,6 +99,7 @@ class Rows {
   const WeberPennParameters& p_;
   WaitingChildren& children_;
   int level_, child_level_;
+  float per_crown_;
 };
 
 hn::Mask<Floats> is_odd(IntegerLanes k) {
@@ -107,7 +125,7 @@ HWY_INLINE OnCurve on_segment(const Segment& segment, Vector t) {
 }
 
 /// The children of a run, which share a segment.
-void put_run(const GrowingStem& stem, const Segment& segment, const ChildRun& run, float growth,
+void put_run(const GrowingStem& stem, const Segment& segment, const ChildRun& run, const ChildGrowth& growth,
              const WeberPennParameters& p, WaitingChildren& children) {
   const Integers di;
   const auto first_row = static_cast<std::size_t>(children.count);
@@ -115,7 +133,8 @@ void put_run(const GrowingStem& stem, const Segment& segment, const ChildRun& ru
   for (int first = 0; first < run.count; first += static_cast<int>(hn::Lanes(di))) {
     const IntegerLanes k = counted_from(first);
     const Vector even = hn::Add(set(run.t_start), hn::Mul(hn::ConvertTo(Floats(), k), set(run.t_step)));
-    const Vector t = in_unit(hn::IfThenElse(is_odd(k), hn::Add(even, set(run.t_odd)), even));
+    const Vector t = run.t ? hn::LoadU(Floats(), run.t + first)
+                           : in_unit(hn::IfThenElse(is_odd(k), hn::Add(even, set(run.t_odd)), even));
     const Vector z = hn::Add(set(segment.z_start), hn::Mul(t, set(segment.z_end - segment.z_start)));
     rows.put(on_segment(segment, t), z, hn::LoadU(Floats(), run.roll_deg + first), growth, run.first + first,
              first_row + static_cast<std::size_t>(first));
@@ -161,8 +180,8 @@ HWY_INLINE OnCurve on_curve(const StemCurve& curve, const SegmentLookup& lookup,
 }
 
 /// Children of a whole stem.
-void put_spread(const GrowingStem& stem, const SpreadRun& run, float growth, const WeberPennParameters& p,
-                WaitingChildren& children) {
+void put_spread(const GrowingStem& stem, const SpreadRun& run, const ChildGrowth& growth,
+                const WeberPennParameters& p, WaitingChildren& children) {
   const Integers di;
   const ChildSpread& spread = run.spread;
   const int segments = run.curve.segments;
@@ -178,8 +197,10 @@ void put_spread(const GrowingStem& stem, const SpreadRun& run, float growth, con
       segment = hn::Add(segment, hn::IfThenElseZero(hn::Ge(number, set(spread.whole()[i])), set(1)));
     const SegmentLookup lookup(segment, segments);
     const Vector shift = hn::IfThenElseZero(is_odd(k), set(spread.odd_shift()));
-    const Vector t = in_unit(hn::Mul(hn::Sub(hn::Sub(number, shift), lookup(spread.reached_before())),
-                                     set(spread.inverse_rate())));
+    const Vector t = spread.places()
+                         ? hn::LoadU(Floats(), spread.places() + child)
+                         : in_unit(hn::Mul(hn::Sub(hn::Sub(number, shift), lookup(spread.reached_before())),
+                                           set(spread.inverse_rate())));
     const Vector z_start = hn::Div(segment, z_per_segment),
                  z_end = hn::Div(hn::Add(segment, set(1)), z_per_segment);
     const Vector z = hn::Add(z_start, hn::Mul(t, hn::Sub(z_end, z_start)));
@@ -212,6 +233,7 @@ ChildRun rest_of(const ChildRun& run, int skipped) {
   rest.t_start += static_cast<float>(skipped) * run.t_step + (is_odd ? run.t_odd : 0);
   if (is_odd) rest.t_odd = -run.t_odd;
   rest.roll_deg += skipped;
+  if (rest.t) rest.t += skipped;
   return rest;
 }
 
@@ -225,7 +247,7 @@ void ChildBatch::add(const GrowingStem& stem, const Segment& segment, ChildPlace
   const float bare = p_.base_size[level_index(stem.level)], z_length = segment.z_end - segment.z_start;
   const auto is_bare = [&](float t) { return segment.z_start + std::clamp(t, 0.f, 1.f) * z_length < bare; };
   for (ChildRun run; placer.next_run(run);) {
-    while (run.count > 0 && is_bare(run.t_start)) run = rest_of(run, 1);
+    while (run.count > 0 && is_bare(run.t ? *run.t : run.t_start)) run = rest_of(run, 1);
     add_run(stem, segment, run, 1);
   }
   for (ChildSlot slot; placer.next_slot(slot);) {
@@ -234,6 +256,11 @@ void ChildBatch::add(const GrowingStem& stem, const Segment& segment, ChildPlace
     add_run(stem, segment, {.first = slot.index, .count = 1, .t_start = slot.t, .roll_deg = roll_deg.data()},
             slot.grown_fraction);
   }
+}
+
+const AlongCurve& ChildBatch::growth_along(int parent_level) const {
+  return bears_ == ChildPlacer::Bears::leaves ? p_.curves.leaf_scale_along
+                                              : p_.curves.length_along[level_index(parent_level + 1)];
 }
 
 void ChildBatch::add_run(const GrowingStem& stem, const Segment& segment, const ChildRun& run,
@@ -246,7 +273,8 @@ void ChildBatch::add_run(const GrowingStem& stem, const Segment& segment, const 
     flush();
     return add_run(stem, segment, rest_of(run, room), grown_fraction);
   }
-  HWY_DYNAMIC_DISPATCH(put_run)(stem, segment, run, growth(stem, grown_fraction), p_, waiting_);
+  HWY_DYNAMIC_DISPATCH(put_run)
+  (stem, segment, run, {growth(stem, grown_fraction), growth_along(stem.level)}, p_, waiting_);
   note(stem, waiting_.count, run.count);
   waiting_.count += run.count;
 }
@@ -266,19 +294,23 @@ void ChildBatch::add(const GrowingStem& stem, const StemBatch& batch, std::size_
 
 void ChildBatch::add_spread(const GrowingStem& stem, const StemCurve& curve, float count) {
   const ChildSpread& spread = memory_.spread;
-  memory_.spread.spread(stem, count, p_);
+  const bool bears_leaves = bears_ == ChildPlacer::Bears::leaves;
+  memory_.spread.spread(stem, count,
+                        bears_leaves ? leaf_spacing(stem.level, p_) : stem_spacing(stem.level, p_), p_);
   const ChildRolls rolls = memory_.rolls.rolls(stem, spread.end(), p_);
   for (int first = spread.first(); first < spread.end();) {
     if (waiting_.count == WaitingChildren::kMost) flush();
     const int some = std::min(spread.end() - first, WaitingChildren::kMost - waiting_.count);
     HWY_DYNAMIC_DISPATCH(put_spread)
-    (stem, {curve, spread, rolls, first, some}, growth(stem, 1), p_, waiting_);
+    (stem, {curve, spread, rolls, first, some}, {growth(stem, 1), growth_along(stem.level)}, p_, waiting_);
     note(stem, waiting_.count, some);
     waiting_.count += some;
     first += some;
   }
-  if (spread.last_growth() != 1 && spread.first() < spread.end())
-    waiting_.growth[static_cast<std::size_t>(waiting_.count - 1)] = growth(stem, spread.last_growth());
+  if (spread.last_growth() == 1 || spread.first() >= spread.end()) return;
+  float& last = waiting_.growth[static_cast<std::size_t>(waiting_.count - 1)];
+  last =
+      growth_along(stem.level).is_neutral ? growth(stem, spread.last_growth()) : last * spread.last_growth();
 }
 
 }  // namespace espalier

@@ -54,6 +54,8 @@ class ChildBatch {
  private:
   void add_run(const GrowingStem& stem, const Segment& segment, const ChildRun& run, float grown_fraction);
   void add_spread(const GrowingStem& stem, const StemCurve& curve, float count);
+  /// Factor on the growth of children along a parent of this level.
+  const AlongCurve& growth_along(int parent_level) const;
 
   ChildPlacer::Bears bears_;
   ChildBatchMemory& memory_;

@@ -27,32 +27,64 @@ float ChildSpread::place(int child, int segments) const {
     ++segment;
   const float shift = child % 2 == 1 ? distribution_ : 0;
   const float t =
-      std::clamp((static_cast<float>(child) - shift - reached_[segment]) * inverse_rate_, 0.f, 1.f);
+      are_placed_
+          ? places_[static_cast<std::size_t>(child)]
+          : std::clamp((static_cast<float>(child) - shift - reached_[segment]) * inverse_rate_, 0.f, 1.f);
   const float z_start = static_cast<float>(segment) / static_cast<float>(segments),
               z_end = static_cast<float>(segment + 1) / static_cast<float>(segments);
   return z_start + t * (z_end - z_start);
 }
 
-void ChildSpread::spread(const GrowingStem& stem, float count, const WeberPennParameters& p) {
-  const int segments = segment_count(p, stem.level);
-  const float rate = std::max(0.f, count) / static_cast<float>(segments);
-  inverse_rate_ = 1 / rate;
-  distribution_ = p.branch_dist[level_index(stem.level + 1)];
+/// Counts from segment to segment, `rate` children on each; the whole count.
+template <typename Rate>
+float ChildSpread::pass(int segments, const Rate& rate) {
   reached_.resize(static_cast<std::size_t>(segments) + kReadBeyond);
   whole_.resize(static_cast<std::size_t>(segments) + kReadBeyond);
   float reached = 0;
-  int passed = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(segments); ++i) {
     reached_[i] = reached;
-    reached += rate;
-    passed = static_cast<int>(reached + kRounding);
-    whole_[i] = static_cast<float>(passed);
+    reached += rate(i);
+    end_ = static_cast<int>(reached + kRounding);
+    whole_[i] = static_cast<float>(end_);
   }
+  return reached;
+}
+
+/// Works out where each child is, also one that is not whole.
+void ChildSpread::put_apart(float count, const ChildSpacing& spacing, int segments) {
+  places_.resize(static_cast<std::size_t>(end_) + kReadBeyond);
+  int child = 0;
+  for (int i = 0; i < segments; ++i) {
+    const ChildSpacing::Part part = spacing.part_of(i, segments);
+    const auto at = static_cast<std::size_t>(i);
+    const float per_child = 1 / (count * part.share()), reached = reached_[at];
+    const int end = i + 1 == segments ? end_ : static_cast<int>(whole_[at]);
+    for (; child < end; ++child) {
+      const float shift = child % 2 == 1 ? distribution_ : 0;
+      const float share = (static_cast<float>(child) - shift - reached) * per_child;
+      places_[static_cast<std::size_t>(child)] = spacing.along(part, std::clamp(share, 0.f, 1.f));
+    }
+  }
+}
+
+void ChildSpread::spread(const GrowingStem& stem, float child_count, const ChildSpacing& spacing,
+                         const WeberPennParameters& p) {
+  const int segments = segment_count(p, stem.level);
+  const float count = std::max(0.f, child_count), even_rate = count / static_cast<float>(segments);
+  are_placed_ = !spacing.is_even();
+  inverse_rate_ = 1 / even_rate;
+  distribution_ = p.branch_dist[level_index(stem.level + 1)];
+  const auto rate = [&](std::size_t i) {
+    return count * spacing.part_of(static_cast<int>(i), segments).share();
+  };
+  const float reached =
+      are_placed_ ? pass(segments, rate) : pass(segments, [&](std::size_t) { return even_rate; });
   first_ = 0;
-  end_ = passed;
   last_growth_ = 1;
   const float missing = static_cast<float>(end_ + 1) - reached;
-  if (rate > 0 && p.relaxed_counts > 0 && missing < 1) ++end_, last_growth_ = 1 - missing;
+  const float last_rate = are_placed_ ? rate(static_cast<std::size_t>(segments - 1)) : even_rate;
+  if (last_rate > 0 && p.relaxed_counts > 0 && missing < 1) ++end_, last_growth_ = 1 - missing;
+  if (are_placed_) put_apart(count, spacing, segments);
   const float bare = p.base_size[level_index(stem.level)];
   while (first_ < end_ && place(first_, segments) < bare) ++first_;
 }

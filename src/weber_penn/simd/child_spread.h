@@ -15,7 +15,8 @@ class ChildSpread {
   static bool supports(float child_count, int child_level, const WeberPennParameters& parameters);
 
   /// `count`: leaf_count or child_stem_count of the stem.
-  void spread(const GrowingStem& stem, float count, const WeberPennParameters& parameters);
+  void spread(const GrowingStem& stem, float count, const ChildSpacing& spacing,
+              const WeberPennParameters& parameters);
 
   int first() const { return first_; }  ///< the first child above the bare base
   int end() const { return end_; }
@@ -28,13 +29,20 @@ class ChildSpread {
   const float* whole() const { return whole_.data(); }
   float inverse_rate() const { return inverse_rate_; }  ///< segments per child
   float odd_shift() const { return distribution_; }     ///< by which odd children sit lower, in children
+  /// Where on its segment each child sits, in [0, 1], where they are not evenly spread, with a vector more
+  /// that can be read; else nullptr.
+  const float* places() const { return are_placed_ ? places_.data() : nullptr; }
 
  private:
   float place(int child, int segments) const;
+  template <typename Rate>
+  float pass(int segments, const Rate& rate);
+  void put_apart(float count, const ChildSpacing& spacing, int segments);
 
   int first_ = 0, end_ = 0;
   float last_growth_ = 1, inverse_rate_ = 0, distribution_ = 0;
-  std::vector<float> reached_, whole_;
+  bool are_placed_ = false;
+  std::vector<float> reached_, whole_, places_;
 };
 
 /// The angles of children about their parent: child k is at start_deg + by_child_deg[k], for a vector more

@@ -21,7 +21,8 @@ Vector3 load(const StemCurve::Rows3& rows, int at) {
 void store(const Vector3& v, Vec3* to) { hn::StoreInterleaved3(v.x, v.y, v.z, Floats(), &to->x); }
 
 /// Writes whole vectors from `knot` on: up to 7 knots more than the stem has.
-void put_knots(const GrowingStem& stem, const StemCurve& curve, float taper, std::size_t knot, Knots& knots) {
+void put_knots(const GrowingStem& stem, const StemCurve& curve, const WeberPennParameters& p,
+               std::size_t knot, Knots& knots) {
   const Vector third_m = set(curve.segment_m / 3), segments = set(static_cast<float>(curve.segments));
   for (int at = 0; at <= curve.segments; at += static_cast<int>(hn::Lanes(Floats()))) {
     const std::size_t to = knot + static_cast<std::size_t>(at);
@@ -30,14 +31,14 @@ void put_knots(const GrowingStem& stem, const StemCurve& curve, float taper, std
     store(point - handle, &knots.handle_in_m[to]);
     store(point + handle, &knots.handle_out_m[to]);
     const Vector z = hn::Div(hn::ConvertTo(Floats(), counted_from(at)), segments);
-    hn::StoreU(radius_at(stem, z, taper), Floats(), &knots.radius_m[to]);
+    hn::StoreU(radius_at(stem, z, p), Floats(), &knots.radius_m[to]);
   }
 }
 
-void put_all_knots(std::span<const GrowingStem> stems, const StemBatch& batch, float taper, std::size_t knot,
-                   Knots& knots) {
+void put_all_knots(std::span<const GrowingStem> stems, const StemBatch& batch, const WeberPennParameters& p,
+                   std::size_t knot, Knots& knots) {
   for (std::size_t i = 0; i < stems.size(); ++i) {
-    put_knots(stems[i], batch.curve(i), taper, knot, knots);
+    put_knots(stems[i], batch.curve(i), p, knot, knots);
     knot += static_cast<std::size_t>(batch.segment_count()) + 1;
   }
 }
@@ -67,7 +68,7 @@ void append_knots(std::span<const GrowingStem> stems, const StemBatch& batch, co
     knots.radius_m.resize(size);
   };
   resize(after + kWrittenBeyond);
-  HWY_DYNAMIC_DISPATCH(put_all_knots)(stems, batch, p.taper[level_index(stems[0].level)], before, knots);
+  HWY_DYNAMIC_DISPATCH(put_all_knots)(stems, batch, p, before, knots);
   resize(after);
   for (std::size_t i = 1; i <= stems.size(); ++i)
     plant.stems.first_knot.push_back(static_cast<std::uint32_t>(before + i * of_each));

@@ -108,10 +108,12 @@ struct Level {
 void turn(TurtleLanes& turtle, const std::uint64_t* keys, int at, const Level& level) {
   const WeberPennParameters& p = level.p;
   const int segments = level.segments;
-  if (p.bend_v[level.index] != 0)
-    turtle.turn_left(jitter(keys, Draw::bend, at, p.bend_v[level.index], segments));
-  turtle.pitch_down(hn::Add(set(shared_curve_deg(level.index, at, segments, p)),
-                            jitter(keys, Draw::curve, at, p.curve_v[level.index], segments)));
+  const float steady_deg = steady_bend_deg(level.index, at, segments, p);
+  if (p.bend_v[level.index] != 0 || steady_deg != 0)
+    turtle.turn_left(hn::Add(jitter(keys, Draw::bend, at, p.bend_v[level.index], segments), set(steady_deg)));
+  const Vector curve_deg = hn::Add(set(shared_curve_deg(level.index, at, segments, p)),
+                                   jitter(keys, Draw::curve, at, p.curve_v[level.index], segments));
+  turtle.pitch_down(hn::Mul(curve_deg, set(curve_factor(level.index, at, segments, p))));
   if (!(level.tropism == Vec3{})) turtle.pull(level.tropism);
   turtle.renormalize();
 }

@@ -1,6 +1,7 @@
 // The rows of the Weber–Penn table: each names a member of WeberPennParameters and says all there is to say
 // of it, but its default, which is the member's. Help and meaning after [CH, Appendix C]. Plain values are
-// those of a tree to trace: where overrides bend a branch, curve_v is what other seeds bend it by.
+// those of a tree to trace: where overrides bend a branch, curve_v is what other seeds bend it by. The last
+// rows are the numbers of curves along stems (docs/curves.md); plain ones are neutral.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -177,12 +178,60 @@ const Definition kDefinitions[] = {
 };
 // clang-format on
 
+using CurveMember = std::variant<DensityLevels StemCurves::*, AlongLevels StemCurves::*,
+                                 DensityCurve StemCurves::*, AlongCurve StemCurves::*>;
+
+/// A curve of each level from first_level on, or of the whole plant (-1).
+struct CurveDefinition {
+  CurveMember member;
+  const char* name;
+  int first_level;
+  const char* unit;
+  Range valid, search;
+  CurveArgument argument;
+  CurveRole role;
+  double neutral;
+  std::array<const char*, 3> needs;  ///< as in Needs
+  const char* help;
+  bool places = false;  ///< as in Facts
+};
+
+using C = StemCurves;
+constexpr CurveArgument kOnParent = CurveArgument::place_on_parent, kAlong = CurveArgument::along_itself;
+constexpr CurveRole kFactor = CurveRole::factor, kOffset = CurveRole::offset, kDensity = CurveRole::density;
+
+// clang-format off
+const CurveDefinition kCurveDefinitions[] = {
+  {&C::density_along, "density_along", 1, "1", {0, 20}, {0.05, 2}, kOnParent, kDensity, 1, {},
+   "curve along the parent above its bare base: how densely stems stand, relative to the mean; their count stays"},
+  {&C::length_along, "length_along", 1, "1", {0, 10}, {0.1, 2}, kOnParent, kFactor, 1, {},
+   "curve along the parent above its bare base: factor on the length of stems"},
+  {&C::down_angle_along, "down_angle_along", 1, "deg", {-360, 360}, {-60, 60}, kOnParent, kOffset, 0, {},
+   "curve along the parent above its bare base: added to down_angle", true},
+  {&C::curve_along, "curve_along", 0, "1", {-20, 20}, {-1, 3}, kAlong, kFactor, 1, {"curve[n]", "curve_back[n]", "curve_v[n]"},
+   "curve along the stem: factor on its bend, by curve, curve_back and curve_v"},
+  {&C::bend_along, "bend_along", 0, "deg", {-720, 720}, {-120, 120}, kAlong, kOffset, 0, {},
+   "curve along the stem: sideways bend, in degrees over the whole stem where it is the same everywhere"},
+  {&C::radius_along, "radius_along", 0, "1", {0, 10}, {0.3, 2}, kAlong, kFactor, 1, {},
+   "curve along the stem: factor on its radius"},
+  {&C::leaf_scale_along, "leaf_scale_along", -1, "1", {0, 10}, {0.2, 2}, kOnParent, kFactor, 1, {"leaf_blos_num"},
+   "curve along the stem that bears them, above its bare base: factor on the size of leaves and blossom"},
+  {&C::leaf_density_along, "leaf_density_along", -1, "1", {0, 20}, {0.05, 2}, kOnParent, kDensity, 1, {"leaf_blos_num"},
+   "curve along the stem that bears them, above its bare base: how densely leaves stand, relative to the mean; their count stays"},
+};
+// clang-format on
+
+std::string need_of(const char* need, int level) {
+  std::string name = need;
+  if (name.ends_with("[n]")) name.replace(name.size() - 2, 1, std::to_string(level));
+  return name;
+}
+
 std::vector<std::string> needs_of(const Definition& definition, int level) {
   std::vector<std::string> names;
   for (const char* need : definition.facts.needs.at(level)) {
     if (!need) break;
-    std::string& name = names.emplace_back(need);
-    if (name.ends_with("[n]")) name.replace(name.size() - 2, 1, std::to_string(level));
+    names.push_back(need_of(need, level));
   }
   return names;
 }
@@ -235,6 +284,45 @@ ParameterInfo make_row(const Definition& definition, int level, float default_va
           .help = definition.help};
 }
 
+/// The row of a number of a curve. Of trunks it is part of their form.
+ParameterInfo make_curve_row(const CurveDefinition& definition, int level, int point) {
+  ParameterInfo row{.name = definition.name,
+                    .level = level,
+                    .point = point,
+                    .unit = definition.unit,
+                    .lower = definition.valid.lower,
+                    .upper = definition.valid.upper,
+                    .search_lower = definition.search.lower,
+                    .search_upper = definition.search.upper,
+                    .default_value = definition.neutral,
+                    .least_levels = definition.places ? level : level + 1,
+                    .role = {level == 0 ? Role::trunk_form : Role::none},
+                    .plain = definition.neutral,
+                    .help = definition.help};
+  for (const char* need : definition.needs)
+    if (need) row.needs.push_back(need_of(need, level));
+  return row;
+}
+
+void append_curve(const CurveDefinition& definition, int level, ParameterTable& table) {
+  table.curves.push_back({.name = definition.name,
+                          .level = level,
+                          .first_row = table.rows.size(),
+                          .argument = definition.argument,
+                          .role = definition.role,
+                          .neutral = definition.neutral});
+  for (int point = 0; point < static_cast<int>(kCurveRows); ++point)
+    table.rows.push_back(make_curve_row(definition, level, point));
+}
+
+void append_curves(ParameterTable& table) {
+  for (const CurveDefinition& definition : kCurveDefinitions)
+    if (definition.first_level < 0)
+      append_curve(definition, -1, table);
+    else
+      for (int level = definition.first_level; level < 4; ++level) append_curve(definition, level, table);
+}
+
 ParameterTable make_table() {
   const WeberPennParameters defaults;
   ParameterTable table{"weber_penn", {}};
@@ -246,8 +334,38 @@ ParameterTable make_table() {
         table.rows.push_back(
             make_row(definition, level, (defaults.*std::get<LevelMember>(definition.member))[level]));
   }
+  append_curves(table);  // last: what draws by the number of a row keeps its draws
   return table;
 }
+
+/// Takes the numbers of the curves from `values`, in the order of the table.
+class CurveReader {
+ public:
+  CurveReader(std::span<const double> values, StemCurves& curves) : values_(values), curves_(curves) {}
+
+  void read(const CurveDefinition& definition) {
+    std::visit([&](auto member) { take(definition, curves_.*member); }, definition.member);
+  }
+
+ private:
+  std::span<const double> next() {
+    const auto numbers = values_.first(kCurveRows);
+    values_ = values_.subspan(kCurveRows);
+    return numbers;
+  }
+  void take(const CurveDefinition& definition, AlongCurve& curve) {
+    curve = make_along_curve(next(), definition.neutral);
+  }
+  void take(const CurveDefinition&, DensityCurve& curve) { curve = make_density_curve(next()); }
+  template <typename Levels>
+  void take(const CurveDefinition& definition, Levels& levels) {
+    for (auto level = static_cast<std::size_t>(definition.first_level); level < levels.size(); ++level)
+      take(definition, levels[level]);
+  }
+
+  std::span<const double> values_;
+  StemCurves& curves_;
+};
 
 }  // namespace
 
@@ -267,6 +385,8 @@ WeberPennParameters weber_penn_parameters(std::span<const double> values) {
       for (float& value : parameters.*std::get<LevelMember>(definition.member))
         value = static_cast<float>(values[row++]);
   }
+  CurveReader reader(values.subspan(row), parameters.curves);
+  for (const CurveDefinition& definition : kCurveDefinitions) reader.read(definition);
   return parameters;
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include <espalier/core/parameter_table.h>
+#include <espalier/weber_penn/table/along_curves.h>
 
 namespace espalier {
 
@@ -39,6 +40,7 @@ struct WeberPennParameters {
   float prune_ratio = 0, prune_width = 0.5f, prune_width_peak = 0.5f;
   float prune_power_low = 0.5f, prune_power_high = 0.5f;
   float relaxed_counts = 0;
+  StemCurves curves;  ///< along stems; the table's last rows
 
   int level_count() const { return static_cast<int>(levels); }
 };

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include <espalier/core/curves/curve.h>
 #include <espalier/core/error.h>
 #include <espalier/fitting/record/search_space.h>
 #include <espalier/models/models.h>
@@ -52,6 +53,65 @@ RC_GTEST_PROP(SearchSpace, EncodeIsTheInverseOfDecode, ()) {
   space.decode(space.encode(values), again);
   for (std::size_t i = 0; i < values.size(); ++i)
     RC_ASSERT(std::fabs(values[i] - again[i]) <= 1e-9 * std::max(1.0, std::fabs(values[i])));
+}
+
+std::vector<std::string> names_in(const SearchSpace& space) {
+  std::vector<std::string> names;
+  for (const FreeParameter& parameter : space.free) names.push_back(parameter.name);
+  return names;
+}
+
+TEST(SearchSpace, ACurveIsFreeNumberByNumber) {
+  const SearchSpace space = space_of({"length_along[1]"});
+  ASSERT_EQ(space.dimension(), 7u);
+  EXPECT_EQ(names_in(space).front(), "length_along[1].1");
+  EXPECT_EQ(names_in(space).back(), "length_along[1].7");
+}
+
+TEST(SearchSpace, ACurveOfFourNumbersIsThatCurve) {
+  const SearchSpace space = space_of({"g_scale", "length_along[1]~4", "ratio"});
+  ASSERT_EQ(space.dimension(), 6u);
+  EXPECT_EQ(space.free[2].name, "length_along[1]~4.1");
+  ParameterValues values;
+  space.decode(std::vector<double>{0.5, 0.5, 0.1, 0.9, 0.3, 0.7}, values);
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < 4; ++i)
+    numbers.push_back(value_at(space.free[2 + i], std::vector{0.1, 0.9, 0.3, 0.7}[i]));
+  const Curve curve = make_curve(numbers);
+  const std::size_t first = table().index_of("length_along[1].1");
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(values[first + i], curve.numbers[i], 1e-12) << i;
+}
+
+RC_GTEST_PROP(SearchSpace, CurvesOfFewerNumbersEncodeAsTheyDecode, ()) {
+  const SearchSpace space = space_of({"*_along~4", "bend_along[2]~5", "radius_along[0]~1", "g_scale"});
+  RC_ASSERT(space.dimension() == 1u + 20 * 4 + 5 + 1);
+  const std::vector<double> unit = random_unit(space.dimension());
+  ParameterValues values;
+  space.decode(unit, values);
+  for (std::size_t i = 0; i < values.size(); ++i) check_value(table().rows[i], values[i], "decode");
+  const std::vector<double> again = space.encode(values);
+  for (std::size_t i = 0; i < unit.size(); ++i) RC_ASSERT(std::fabs(unit[i] - again[i]) < 1e-9);
+}
+
+TEST(SearchSpace, PatternsReachCurvesOnlyWhereTheyNameThem) {
+  for (const std::string& name : names_in(space_of({"*", "curve*", "*[1]"})))
+    EXPECT_THAT(name, testing::Not(HasSubstr("_along")));
+  EXPECT_EQ(space_of({"curve_along"}).dimension(), 28u);
+  EXPECT_EQ(space_of({"*_along[1]"}).dimension(), 42u);
+  EXPECT_EQ(space_of({"length_along[1].3"}).dimension(), 1u);
+}
+
+TEST(SearchSpace, RefusesFewerNumbersOfWhatIsNoCurve) {
+  EXPECT_THAT(error_of({{"length[1]~4"}, {}}), HasSubstr("got 'length[1]~4', but length[1] is no curve"));
+  EXPECT_THAT(error_of({{"length_along[1]~3"}, {}}),
+              HasSubstr("got 'length_along[1]~3', expected a curve, ~ and 1, 4, 5 or 7 numbers"));
+  EXPECT_THAT(error_of({{"length_along[7]"}, {}}), HasSubstr("the closest is 'length_along[1]'"));
+}
+
+TEST(SearchSpace, AFixedCurveIsHeldAsAWhole) {
+  const SearchSpace space = space_of({"length_along[1]~4", "g_scale"}, {{"length_along[1]", 1.5}});
+  EXPECT_EQ(space.dimension(), 1u);
+  EXPECT_EQ(space.base[table().index_of("length_along[1].7")], 1.5);
 }
 
 TEST(SearchSpace, ClampsCoordinatesOutsideTheBox) {

@@ -114,5 +114,35 @@ TEST(Blend, RefusesAShareOutsideZeroToOne) {
   for (const double t : {-0.1, 1.1, double(NAN)}) EXPECT_THROW(monotone_blend("palm", "acer", t), InputError);
 }
 
+TEST(Blend, CurvesBlendNumberByNumber) {
+  const std::size_t first = model().table().index_of("length_along[1].1");
+  ParameterValues a = load_preset("quaking_aspen").values, b = a;
+  for (std::size_t i = 0; i < kCurveRows; ++i)
+    a[first + i] = 1 + 0.5 * static_cast<double>(i), b[first + i] = 2;
+  for (const char* name : {"raw", "monotone"}) {
+    const ParameterValues between = blend(model(), *make_encoding(name, model().table()), a, b, 0.25);
+    for (std::size_t i = 0; i < kCurveRows; ++i)
+      EXPECT_NEAR(between[first + i], 0.75 * a[first + i] + 0.25 * b[first + i], 1e-12) << name << i;
+  }
+}
+
+/// A tree of fewer levels gets those of the other first; its leaves' curves go to the stalks.
+TEST(Blend, CurvesOfLeavesSpreadTheStalksOfADeeperTree) {
+  ParameterValues values = load_preset("quaking_aspen").values;
+  const ParameterTable& table = model().table();
+  const std::size_t leaves = table.find_curve("leaf_density_along")->first_row,
+                    sizes = table.find_curve("leaf_scale_along")->first_row,
+                    stalks = table.find_curve("density_along[3]")->first_row;
+  for (std::size_t i = 0; i < kCurveRows; ++i)
+    values[leaves + i] = static_cast<double>(i), values[sizes + i] = 2;
+  const ParameterValues deeper = model().deepened(values, 4);
+  for (std::size_t i = 0; i < kCurveRows; ++i) {
+    EXPECT_EQ(deeper[stalks + i], static_cast<double>(i));
+    EXPECT_EQ(deeper[leaves + i], 1);
+    EXPECT_EQ(deeper[sizes + i], 1);
+  }
+  EXPECT_DOUBLE_EQ(value(deeper, "leaf_scale"), 2 * value(values, "leaf_scale"));
+}
+
 }  // namespace
 }  // namespace espalier

@@ -19,6 +19,7 @@ namespace espalier {
 namespace {
 
 using testing::HasSubstr;
+namespace fs = std::filesystem;
 
 SpeciesSpace bundled_space(int components, const std::string& encoding = "monotone") {
   return make_species_space(load_presets({}), encoding, components);
@@ -142,6 +143,35 @@ TEST(SpeciesSpace, RefusesPresetsThatSpanNothing) {
   Preset other = birch;
   other.model = "lsystem";
   EXPECT_THAT(space_error({aspen, other}, 1), HasSubstr("expected one model"));
+}
+
+TEST(SpeciesSpace, CurvesThatNoPresetUsesHaveNoColumns) {
+  const SpeciesSpace space = bundled_space(2);
+  for (const EncodingColumn& column : space.encoding->columns())
+    EXPECT_LT(column.row, space.model->table().curves.front().first_row) << column.name;
+  EXPECT_EQ(species_space_to_toml(space).find("_along"), std::string::npos);
+}
+
+TEST(SpeciesSpace, AnUnusedCurveOfAPlantStaysAsItIsMoved) {
+  const SpeciesSpace space = bundled_space(2);
+  ParameterValues values = space.species[0].values;
+  const std::size_t row = space.model->table().index_of("length_along[1].3");
+  values[row] = 1.75;
+  EXPECT_EQ(plant_moved_to(space, values, space.species[1].coordinates).values[row], 1.75);
+}
+
+TEST(SpeciesSpace, ACurveThatAPresetUsesIsPartOfIt) {
+  std::vector<Preset> presets = load_presets({"acer", "apple", "palm"});
+  const std::size_t row = model_by_name("weber_penn").table().index_of("length_along[1].3");
+  presets[1].values[row] = 0.25;
+  const SpeciesSpace space = make_species_space(presets, "monotone", 2);
+  const fs::path file = fresh_folder("curves") / "space.toml";
+  std::ofstream(file) << species_space_to_toml(space);
+  const SpeciesSpace again = read_species_space(file);
+  for (const SpeciesPoint& species : again.species)
+    EXPECT_NEAR(plant_at(again, species.coordinates).values[row], species.values[row], 1e-9) << species.name;
+  EXPECT_EQ(again.species[1].values, presets[1].values);
+  EXPECT_EQ(species_space_to_toml(again), species_space_to_toml(space));
 }
 
 }  // namespace
