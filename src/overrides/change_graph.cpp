@@ -41,7 +41,10 @@ bool is_inherited(const Override& entry) {
 
 }  // namespace
 
-std::vector<Override> resolved_overrides(const OverrideSet& set, const Overrides& overrides) {
+namespace {
+
+/// The set and those it shares, the nearest first.
+std::vector<const OverrideSet*> chain_of(const OverrideSet& set, const Overrides& overrides) {
   std::vector<const OverrideSet*> chain{&set};
   std::vector<std::string> names;
   while (!chain.back()->shares.empty()) {
@@ -51,10 +54,23 @@ std::vector<Override> resolved_overrides(const OverrideSet& set, const Overrides
     names.push_back(name);
     chain.push_back(&shared_set(name, overrides));
   }
+  return chain;
+}
+
+}  // namespace
+
+std::vector<Override> resolved_overrides(const OverrideSet& set, const Overrides& overrides) {
+  const std::vector<const OverrideSet*> chain = chain_of(set, overrides);
   OverrideSet result;
   for (auto each = chain.rbegin(); each != chain.rend(); ++each)
     for (const Override& entry : (*each)->overrides) set_override(result, entry);
   return result.overrides;
+}
+
+const DrawnAxis* resolved_axis(const OverrideSet& set, const Overrides& overrides) {
+  for (const OverrideSet* each : chain_of(set, overrides))
+    if (each->axis) return &*each->axis;
+  return nullptr;
 }
 
 ChangeGraph::ChangeGraph(const Overrides& overrides) : nodes_(1) {
@@ -63,6 +79,8 @@ ChangeGraph::ChangeGraph(const Overrides& overrides) : nodes_(1) {
     const auto index = static_cast<std::size_t>(add_path(node.path));
     own.resize(nodes_.size());
     own[index] = resolved_overrides(node.set, overrides);
+    if (const DrawnAxis* axis = resolved_axis(node.set, overrides))
+      nodes_[index].axis = StemAxis{make_axis(axis->points), axis->frame};
   }
   combine(0, -1, own);
 }
@@ -90,6 +108,7 @@ void ChangeGraph::combine(std::int32_t index, std::int32_t inherits,
   Node& node = nodes_[static_cast<std::size_t>(index)];
   if (inherits >= 0) node.change = node.handed_on = nodes_[static_cast<std::size_t>(inherits)].handed_on;
   for (const Override& entry : own[static_cast<std::size_t>(index)]) {
+    apply(entry, node.own);
     apply(entry, node.change);
     if (is_inherited(entry)) apply(entry, node.handed_on);
   }
@@ -109,6 +128,16 @@ ChangeCursor ChangeCursor::child(std::uint32_t index) const {
   const auto found = std::lower_bound(node.children.begin(), node.children.end(), std::pair{index, -1});
   if (found != node.children.end() && found->first == index) below.node_ = found->second;
   return below;
+}
+
+const StemAxis* ChangeCursor::axis() const {
+  if (node_ <= 0) return nullptr;
+  const ChangeGraph::Node& node = graph_->nodes_[static_cast<std::size_t>(node_)];
+  return node.axis ? &*node.axis : nullptr;
+}
+
+const BranchChange* ChangeCursor::own_change() const {
+  return node_ > 0 ? &graph_->nodes_[static_cast<std::size_t>(node_)].own : nullptr;
 }
 
 const BranchChange* ChangeCursor::change() const {

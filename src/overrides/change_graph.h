@@ -2,6 +2,7 @@
 // changes it by a step from its parent. A model carries a ChangeCursor in each growing stem, moves it with
 // child(), and applies change() where it computes the quantity. Immutable: threads may share it.
 #pragma once
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,11 @@ class ChangeCursor {
   ChangeCursor child(std::uint32_t index) const;
   /// What changes the stem here; null: nothing.
   const BranchChange* change() const;
+  /// The drawn axis of this very stem; null: none.
+  const StemAxis* axis() const;
+  /// What the stem's own node says, without what it inherits: of a stem that splits off another, which has
+  /// followed all that already. Null: nothing.
+  const BranchChange* own_change() const;
   /// Whether branches below this stem are changed in any way.
   bool changes_below() const { return node_ >= 0 || inherits_ >= 0; }
 
@@ -38,9 +44,11 @@ class ChangeGraph {
   friend class ChangeCursor;
 
   struct Node {
+    BranchChange own;        ///< what it says itself
     BranchChange change;     ///< of the branch itself
     BranchChange handed_on;  ///< of those below without a node of their own
     bool hands_on = false;   ///< whether handed_on changes anything
+    std::optional<StemAxis> axis;
     std::vector<std::pair<std::uint32_t, std::int32_t>> children;  ///< by index
   };
 
@@ -52,5 +60,7 @@ class ChangeGraph {
 
 /// The overrides of `set`, those it shares first. Throws InputError as the graph does.
 std::vector<Override> resolved_overrides(const OverrideSet& set, const Overrides& overrides);
+/// Its axis, or that of the nearest set it shares; null: none. Throws InputError as the graph does.
+const DrawnAxis* resolved_axis(const OverrideSet& set, const Overrides& overrides);
 
 }  // namespace espalier

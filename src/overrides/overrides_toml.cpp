@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include <espalier/core/error.h>
@@ -14,7 +15,7 @@ constexpr const char* kRelations[] = {"value", "factor", "offset"};  ///< in the
 
 std::vector<std::string> known_keys(bool in_branch) {
   std::vector<std::string> keys = quantity_names();
-  keys.emplace_back("shares");
+  keys.insert(keys.end(), {"shares", "axis", "axis_frame"});
   if (in_branch) keys.emplace_back("path");
   return keys;
 }
@@ -46,8 +47,44 @@ Override read_override(const TomlSection& node, const std::string& key, Quantity
   return result;
 }
 
+AxisPoint read_axis_point(const TomlSection& node, const toml::node& element) {
+  const toml::array* numbers = element.as_array();
+  std::array<double, 3> point{};
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    const auto number =
+        numbers && numbers->size() == point.size() ? numbers->get(i)->value<double>() : std::nullopt;
+    if (!number) node.fail("axis", "an array of points [x, y, z]");
+    point[i] = *number;
+  }
+  return {point[0], point[1], point[2]};
+}
+
+std::vector<AxisPoint> read_axis_points(const TomlSection& node) {
+  std::vector<AxisPoint> points;
+  points.reserve(node.array("axis").size());
+  for (const toml::node& element : node.array("axis")) points.push_back(read_axis_point(node, element));
+  try {
+    make_axis(points);
+  } catch (const InputError& error) {
+    throw_input_error("{}: axis: {}", toml_location(node.source, node.node("axis")), error.what());
+  }
+  return points;
+}
+
+/// axis = [[0, 0, 0.3], [0.1, 0, 0.6], [0.3, 0, 0.8]]
+void read_axis(const TomlSection& node, OverrideSet& set) {
+  if (node.has("axis")) set.axis = DrawnAxis{read_axis_points(node), AxisFrame::parent};
+  if (!node.has("axis_frame")) return;
+  if (!set.axis) node.fail("axis_frame", "none where no axis is drawn");
+  const std::string name = node.text("axis_frame");
+  const auto* const frame = std::find(std::begin(kAxisFrames), std::end(kAxisFrames), name);
+  if (frame == std::end(kAxisFrames)) node.fail("axis_frame", "\"parent\" or \"world\"");
+  set.axis->frame = static_cast<AxisFrame>(frame - std::begin(kAxisFrames));
+}
+
 void read_set(const TomlSection& node, const BranchPath& path, OverrideSet& set) {
   if (node.has("shares")) set.shares = node.text("shares");
+  read_axis(node, set);
   const std::vector<std::string> names = quantity_names();
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!node.has(names[i])) continue;
@@ -87,10 +124,19 @@ std::string override_to_toml(const Override& entry) {
                      entry.number, entry.is_private ? ", private = true" : "");
 }
 
+std::string axis_to_toml(const DrawnAxis& axis) {
+  std::string text;
+  for (const AxisPoint& point : axis.points)
+    text += fmt::format("{}[{}, {}, {}]", text.empty() ? "" : ", ", point.x, point.y, point.z);
+  const bool in_world = axis.frame == AxisFrame::world;
+  return fmt::format("axis = [{}]\n{}", text, in_world ? "axis_frame = \"world\"\n" : "");
+}
+
 std::string set_to_toml(const OverrideSet& set) {
   std::string text;
   if (!set.shares.empty()) text += fmt::format("shares = {}\n", quote_toml(set.shares));
   for (const Override& entry : set.overrides) text += override_to_toml(entry);
+  if (set.axis) text += axis_to_toml(*set.axis);
   return text;
 }
 

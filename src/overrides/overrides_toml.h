@@ -4,6 +4,8 @@
 //   length = { factor = 1.2 }                        # inherited by the branches on it
 //   down_angle = { offset = -10, private = true }    # not inherited
 //   radius = 0.1                                     # a value that replaces the model's
+//   axis = [[0, 0, 0.3], [0.1, 0, 0.6], [0.3, 0, 0.8]]   # the curve it follows, not inherited
+//   axis_frame = "world"                             # or "parent", which is the default
 //   shares = "low"                                   # what [shared.low] says comes first
 #pragma once
 #include <string>

@@ -42,6 +42,9 @@ std::vector<std::string> inherited_by(const BranchPath& path, const Overrides& o
 std::string describe(const OverrideNode& node, const Overrides& overrides) {
   std::vector<std::string> texts;
   for (const Override& entry : node.set.overrides) texts.push_back(describe(entry));
+  if (node.set.axis)
+    texts.push_back(fmt::format("axis of {} points in the frame of the {}", node.set.axis->points.size(),
+                                kAxisFrames[static_cast<std::size_t>(node.set.axis->frame)]));
   if (!node.set.shares.empty()) texts.push_back(fmt::format("shares {}", node.set.shares));
   std::string text = fmt::format("{}", fmt::join(texts, ", "));
   const std::vector<std::string> inherited = inherited_by(node.path, overrides);

@@ -262,6 +262,7 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
   child.parent = child.origin = parent_index;
   child.path_length = parent.path_length + 1;
   child.cursor = site.cursor;
+  child.axis = child.cursor.axis();
   child.extra_curve = extra_curve(change, level, p_);
   child.tree = parent.tree;
   child.turtle = site.turtle;
@@ -310,6 +311,15 @@ bool Growth::is_wanted(const GrowingStem& stem) const {
   return depth > path.size() ? !settings_.only_part->alone : path[depth - 1] == stem.child_index;
 }
 
+/// Of a trunk that is told which way to bend, or follows an axis, the random roll is taken back. A value is
+/// counted from the right of the front view: without a roll a trunk bends away from the viewer.
+float trunk_roll_deg(GrowingStem& trunk, const Modification& rotation) {
+  const bool is_told = !std::isnan(rotation.replaced_by);
+  if (is_told || trunk.axis)
+    trunk.turtle.right = normalized(Vec3{1, 0, 0} - trunk.turtle.forward * trunk.turtle.forward.x);
+  return rotation.apply(0) - (is_told ? 90 : 0);
+}
+
 /// False where overrides remove the trunk.
 bool Growth::change_trunk(GrowingStem& trunk) const {
   const BranchChange* change = trunk.cursor.change();
@@ -317,7 +327,8 @@ bool Growth::change_trunk(GrowingStem& trunk) const {
   trunk.key = reseeded(trunk.key, change->seed);
   trunk.length_m = (*change)[Quantity::length].apply(trunk.length_m);
   trunk.tree.base_length_m = trunk.length_m * p_.base_size[0];
-  trunk.turtle.roll_right((*change)[Quantity::rotation].apply(0));
+  trunk.axis = trunk.cursor.axis();
+  trunk.turtle.roll_right(trunk_roll_deg(trunk, (*change)[Quantity::rotation]));
   trunk.turtle.pitch_down((*change)[Quantity::down_angle].apply(0));
   trunk.extra_curve = extra_curve(change, 0, p_);
   return !change->removed;

@@ -58,7 +58,7 @@ ChildPlacer::ChildPlacer(const GrowingStem& stem, Bears bears, const WeberPennPa
       rotation_deg_(360 * draw_unit(stem.key, Draw::child_rotation_start)) {}
 
 void ChildPlacer::begin(const GrowingStem& stem, const Segment& segment) {
-  const int segments = segment_count(p_, stem.level);
+  const int segments = segment_count(p_, stem.level), walked = segment_count(stem, p_);
   stem_ = &stem;
   segment_ = &segment;
   last_segment_ = segment.z_end >= 1;
@@ -70,7 +70,7 @@ void ChildPlacer::begin(const GrowingStem& stem, const Segment& segment) {
     inverse_rate_ = 1 / rate_;
   } else if (share != share_) {
     share_ = share;
-    rate_ = std::max(0.f, count_) * share / static_cast<float>(segments);
+    rate_ = std::max(0.f, count_) * share / static_cast<float>(walked);
     inverse_rate_ = 1 / rate_;
   }
   before_ = reached_;

@@ -64,9 +64,10 @@ struct GrowingStem {
   std::int32_t parent = -1;  ///< index in Plant::stems
   std::int32_t origin = -1;  ///< likewise; for a clone: of the stem it splits off
   std::uint32_t child_index = 0;
-  int path_length = 1;     ///< parts of its path
-  ChangeCursor cursor;     ///< its overrides
-  ExtraCurve extra_curve;  ///< by an override, or by training
+  int path_length = 1;             ///< parts of its path
+  ChangeCursor cursor;             ///< its overrides
+  const StemAxis* axis = nullptr;  ///< it follows; null: it bends as the parameters say
+  ExtraCurve extra_curve;          ///< by an override, or by training
   Tree tree;
   StemTurtle turtle;    ///< at the start of the stem (for a clone: at the split)
   float length_m = 0;   ///< of the whole stem, also for a clone that starts midway
@@ -99,6 +100,13 @@ inline float place_above_base(const GrowingStem& stem, float offset_m,
                               const WeberPennParameters& parameters) {
   const float bare = parameters.base_size[level_index(stem.level)];
   return (offset_m / stem.length_m - bare) / (1 - bare);
+}
+
+/// Of this stem: where it follows an axis, whole parts of those of its level, so fine that they follow it.
+inline int segment_count(const GrowingStem& stem, const WeberPennParameters& parameters) {
+  constexpr int kLeastOnAxis = 12;
+  const int segments = segment_count(parameters, stem.level);
+  return stem.axis ? (kLeastOnAxis + segments - 1) / segments * segments : segments;
 }
 
 /// Radius at z = 0 (base) … 1 (tip) by the four regimes of taper, with the flare of trunks [WP §4.4], times

@@ -13,7 +13,7 @@ constexpr int kFinePointsPerStem = 100;
 
 int pieces_per_segment(const GrowingStem& stem, const WeberPennParameters& p) {
   if (stem.level > 0 && p.taper[level_index(stem.level)] <= 1) return 1;
-  const int points = (kFinePointsPerStem + segment_count(p, stem.level) - 1) / segment_count(p, stem.level);
+  const int points = (kFinePointsPerStem + segment_count(stem, p) - 1) / segment_count(stem, p);
   return std::max(1, points - 1);
 }
 
@@ -42,8 +42,9 @@ void append_knots(const GrowingStem& stem, const Segment& segment, const WeberPe
   const auto handle_at = [&](float t) {
     return derivative(segment, t) * (1.f / (3 * static_cast<float>(pieces)));
   };
-  const bool starts_stem = segment.z_start * static_cast<float>(segment_count(p, stem.level)) <
-                           static_cast<float>(stem.first_segment) + 0.5f;
+  const int parts = segment_count(stem, p) / segment_count(p, stem.level);
+  const bool starts_stem = segment.z_start * static_cast<float>(segment_count(stem, p)) <
+                           static_cast<float>(stem.first_segment * parts) + 0.5f;
   if (starts_stem)
     append_knot(knots, segment.start_m, handle_at(0), radius_at(0));
   else

@@ -1,6 +1,7 @@
 // Curvature, tropism and dichotomous splits [CH §3.2.1; Weber & Penn 95, §4.1–4.2], see stem_walk.h.
 #include <algorithm>
 
+#include <espalier/weber_penn/scalar/axis_walk.h>
 #include <espalier/weber_penn/scalar/helix.h>
 #include <espalier/weber_penn/scalar/stem_walk.h>
 
@@ -129,15 +130,17 @@ GrowingStem make_clone(const GrowingStem& stem, int at, int index, const WeberPe
   clone.key = child_key(stem.key, clone.child_index);
   clone.path_length = stem.path_length + 1;
   clone.cursor = stem.cursor.child(clone.child_index);
+  clone.axis = clone.cursor.axis();
   clone.first_segment = at;
   clone.child_share = stem.branch_factor * (1 - static_cast<float>(at) / segment_count(p, stem.level));
   clone.split_error = draw_unit(clone.key, Draw::split_error);
   return clone;
 }
 
-/// What overrides do to a stem that splits off; false where they remove it.
+/// What overrides do to a stem that splits off; false where they remove it. It has followed those of the stem
+/// up to there, so that only its own are new.
 bool change_clone(GrowingStem& clone, const WeberPennParameters& p) {
-  const BranchChange* change = clone.cursor.change();
+  const BranchChange* change = clone.cursor.own_change();
   if (change == nullptr) return true;
   clone.key = reseeded(clone.key, change->seed);
   clone.turtle.roll_right((*change)[Quantity::rotation].apply(0));
@@ -164,6 +167,26 @@ void split(GrowingStem& stem, int at, int count, bool at_base, const WeberPennPa
     visitor.split(clone);
   }
   turn_into_fork(stem.turtle, fork, 0, count);
+}
+
+/// How many clones leave the stem at segment end `at`, which is not its tip.
+int split_count(GrowingStem& stem, int at, bool at_base, const WeberPennParameters& p) {
+  return at_base ? base_split_count(stem, p) : diffused_split_count(stem, at, p);
+}
+
+/// Like walk_stem, for a stem that follows an axis: clones leave it where they would leave it without.
+void walk_axis(GrowingStem stem, const WeberPennParameters& p, StemVisitor& visitor) {
+  const int segments = segment_count(p, stem.level), parts = segment_count(stem, p) / segments;
+  AxisWalk walk(stem, p);
+  for (int index = stem.first_segment * parts; index < segments * parts; ++index) {
+    const Segment segment = walk.next();
+    stem.turtle = segment.end;
+    const int at = (index + 1) / parts;
+    const bool at_end = (index + 1) % parts == 0 && at < segments, at_base = is_base_split(stem, at, p);
+    const int count = at_end ? split_count(stem, at, at_base, p) : 0;
+    if (!visitor.segment(stem, segment)) return;
+    if (count > 0) split(stem, at, count, at_base, p, visitor);
+  }
 }
 
 /// Moves the turtle by one segment, whose ends have handles of a third of its length along the heading.
@@ -207,16 +230,17 @@ Vec3 segment_tangent(const Segment& s, float t) {
 }
 
 void walk_stem(GrowingStem stem, const WeberPennParameters& p, StemVisitor& visitor) {
+  if (stem.first_segment == 0) stem.split_error = first_split_error(stem);
+  if (stem.axis) return walk_axis(stem, p, visitor);
   if (p.curve_v[level_index(stem.level)] < 0) return walk_helix(stem, p, visitor);
   const int segments = segment_count(p, stem.level);
-  if (stem.first_segment == 0) stem.split_error = first_split_error(stem);
   Vec3 heading = stem.turtle.forward;
   for (int index = stem.first_segment; index < segments; ++index) {
     const Segment segment = advance(stem, heading, index, segments);
     heading = stem.turtle.forward;
     const int at = index + 1;
     const bool at_tip = at == segments, at_base = is_base_split(stem, at, p);
-    const int count = at_tip ? 0 : at_base ? base_split_count(stem, p) : diffused_split_count(stem, at, p);
+    const int count = at_tip ? 0 : split_count(stem, at, at_base, p);
     if (!visitor.segment(stem, segment) || at_tip) return;
     if (count > 0)
       split(stem, at, count, at_base, p, visitor);
