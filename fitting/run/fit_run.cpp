@@ -52,7 +52,7 @@ FitRun::FitRun(const FitRecord& record, const FitTask& task, const FitPlan& plan
       log_(open_log(directory, replay_)),
       plant_scorer_(task, threads_),
       scorer_(
-          plant_scorer_, log_,
+          plant_scorer_, task.model->table(), log_,
           replay_.on_batch ? static_cast<long>(log_.logged().size())
                            : evaluation_limit(record, directory, options),
           [this] { return seconds(); }, [this](const ScoredBatch& batch) { on_scored(batch); }),

@@ -5,9 +5,14 @@
 
 namespace espalier {
 
-LoggedScorer::LoggedScorer(Scorer& inner, EvaluationLog& log, long limit, std::function<double()> seconds,
-                           std::function<void(const ScoredBatch&)> on_batch)
-    : inner_(inner), log_(log), limit_(limit), seconds_(std::move(seconds)), on_batch_(std::move(on_batch)) {}
+LoggedScorer::LoggedScorer(Scorer& inner, const ParameterTable& table, EvaluationLog& log, long limit,
+                           std::function<double()> seconds, std::function<void(const ScoredBatch&)> on_batch)
+    : inner_(inner),
+      table_(table),
+      log_(log),
+      limit_(limit),
+      seconds_(std::move(seconds)),
+      on_batch_(std::move(on_batch)) {}
 
 void LoggedScorer::score(std::span<const ParameterValues> candidates, std::span<double> scores) {
   ESPALIER_CHECK_EQ(scores.size(), candidates.size());
@@ -31,7 +36,7 @@ std::size_t LoggedScorer::replay(std::span<const ParameterValues> candidates, st
   const std::size_t count = first < logged.size() ? std::min(candidates.size(), logged.size() - first) : 0;
   for (std::size_t i = 0; i < count; ++i) {
     const LoggedEvaluation& entry = logged[first + i];
-    if (entry.candidate_hash != hash_values(candidates[i]))
+    if (entry.candidate_hash != hash_values(table_, candidates[i]))
       throw_input_error(
           "evaluations.bin: evaluation {} differs from the one in the log, expected the same program, "
           "libraries and presets as in the run that began",
@@ -47,7 +52,7 @@ void LoggedScorer::compute(std::span<const ParameterValues> candidates, std::spa
   batch_seconds_ = seconds_();
   std::vector<LoggedEvaluation> entries;
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    entries.push_back({scores[i], static_cast<float>(batch_seconds_), hash_values(candidates[i])});
+    entries.push_back({scores[i], static_cast<float>(batch_seconds_), hash_values(table_, candidates[i])});
   log_.append(entries);
 }
 

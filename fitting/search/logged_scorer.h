@@ -32,9 +32,10 @@ struct ScoredBatch {
 
 class LoggedScorer : public Scorer {
  public:
-  /// limit: most evaluations, 0 for no limit. seconds: the clock of the run, read after each batch.
-  LoggedScorer(Scorer& inner, EvaluationLog& log, long limit, std::function<double()> seconds,
-               std::function<void(const ScoredBatch&)> on_batch);
+  /// table: of the candidates. limit: most evaluations, 0 for no limit. seconds: the clock of the run, read
+  /// after each batch.
+  LoggedScorer(Scorer& inner, const ParameterTable& table, EvaluationLog& log, long limit,
+               std::function<double()> seconds, std::function<void(const ScoredBatch&)> on_batch);
   void score(std::span<const ParameterValues> candidates, std::span<double> scores) override;
 
   long evaluations() const { return evaluations_; }
@@ -48,6 +49,7 @@ class LoggedScorer : public Scorer {
   bool update_best(std::span<const ParameterValues> candidates, std::span<const double> scores);
 
   Scorer& inner_;
+  const ParameterTable& table_;
   EvaluationLog& log_;
   long limit_, evaluations_ = 0;
   std::function<double()> seconds_;

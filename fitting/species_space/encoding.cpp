@@ -7,8 +7,14 @@
 namespace espalier {
 
 std::unique_ptr<Encoding> make_encoding(const std::string& name, const ParameterTable& table) {
-  if (name == "raw") return make_raw_encoding(table);
-  if (name == "monotone") return make_monotone_encoding(table);
+  return make_encoding(name, table, std::vector<bool>(table.rows.size(), true));
+}
+
+std::unique_ptr<Encoding> make_encoding(const std::string& name, const ParameterTable& table,
+                                        const std::vector<bool>& rows) {
+  ESPALIER_CHECK_EQ(rows.size(), table.rows.size());
+  if (name == "raw") return make_raw_encoding(table, rows);
+  if (name == "monotone") return make_monotone_encoding(table, rows);
   throw_input_error("encoding: got '{}', expected raw or monotone", name);
 }
 

@@ -61,9 +61,12 @@ class Encoding {
 
 /// "raw" or "monotone". Throws InputError for any other name. `table` must outlive the encoding.
 std::unique_ptr<Encoding> make_encoding(const std::string& name, const ParameterTable& table);
+/// Of some rows only; the others have their defaults in all plants.
+std::unique_ptr<Encoding> make_encoding(const std::string& name, const ParameterTable& table,
+                                        const std::vector<bool>& rows);
 
-std::unique_ptr<Encoding> make_raw_encoding(const ParameterTable& table);
-std::unique_ptr<Encoding> make_monotone_encoding(const ParameterTable& table);
+std::unique_ptr<Encoding> make_raw_encoding(const ParameterTable& table, const std::vector<bool>& rows);
+std::unique_ptr<Encoding> make_monotone_encoding(const ParameterTable& table, const std::vector<bool>& rows);
 
 /// Whether the magnitudes of a row with a side are all zero, or mean nothing to this plant: then they say
 /// nothing about the side.

@@ -119,7 +119,7 @@ const ParameterCodec& codec_of(const ParameterInfo& row) {
 
 /// A row and where its fields begin.
 struct CodedRow {
-  const ParameterCodec* codec;  ///< none: written by the row it is mixed into
+  const ParameterCodec* codec;  ///< none: written by the row it is mixed into, or not at all
   std::size_t first_column, first_choice;
 };
 
@@ -131,14 +131,14 @@ struct MixedChoice {
 
 class MonotoneEncoding : public Encoding {
  public:
-  explicit MonotoneEncoding(const ParameterTable& table);
+  MonotoneEncoding(const ParameterTable& table, const std::vector<bool>& rows);
   std::string name() const override { return "monotone"; }
   bool levels_are_a_choice() const override { return true; }
   EncodedValues encode(const ParameterValues& values) const override;
   DecodedValues decode(const EncodedValues& encoded) const override;
 
  private:
-  void add_row(std::size_t row);
+  void add_row(std::size_t row, bool is_written);
   void add_mixed(std::size_t row);
   bool is_mixed(std::size_t row) const;
   bool row_means(std::size_t row, const ParameterValues& values) const;
@@ -151,12 +151,12 @@ class MonotoneEncoding : public Encoding {
   std::vector<std::vector<std::size_t>> needs_;
 };
 
-MonotoneEncoding::MonotoneEncoding(const ParameterTable& table)
+MonotoneEncoding::MonotoneEncoding(const ParameterTable& table, const std::vector<bool>& rows)
     : Encoding(table), levels_row_(table.find(Role::levels)) {
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     if (!table.rows[row].mixed_with.empty()) add_mixed(row);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    add_row(row);
+    add_row(row, rows[row]);
     needs_.emplace_back();
     for (const std::string& name : table.rows[row].needs) needs_.back().push_back(table.index_of(name));
   }
@@ -176,8 +176,8 @@ bool MonotoneEncoding::is_mixed(std::size_t row) const {
   });
 }
 
-void MonotoneEncoding::add_row(std::size_t row) {
-  const ParameterCodec* codec = is_mixed(row) ? nullptr : &codec_of(table_->rows[row]);
+void MonotoneEncoding::add_row(std::size_t row, bool is_written) {
+  const ParameterCodec* codec = is_mixed(row) || !is_written ? nullptr : &codec_of(table_->rows[row]);
   rows_.push_back({codec, columns_.size(), choices_.size()});
   if (!codec) return;
   const CodedNames names = codec->names(table_->rows[row]);
@@ -259,8 +259,8 @@ void MonotoneEncoding::read_shares(const MixedChoice& mixed, const EncodedValues
 
 }  // namespace
 
-std::unique_ptr<Encoding> make_monotone_encoding(const ParameterTable& table) {
-  return std::make_unique<MonotoneEncoding>(table);
+std::unique_ptr<Encoding> make_monotone_encoding(const ParameterTable& table, const std::vector<bool>& rows) {
+  return std::make_unique<MonotoneEncoding>(table, rows);
 }
 
 }  // namespace espalier

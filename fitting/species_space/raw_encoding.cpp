@@ -9,30 +9,35 @@ namespace {
 
 class RawEncoding : public Encoding {
  public:
-  explicit RawEncoding(const ParameterTable& table) : Encoding(table) {
+  RawEncoding(const ParameterTable& table, const std::vector<bool>& rows) : Encoding(table) {
     for (std::size_t row = 0; row < table.rows.size(); ++row)
-      columns_.push_back({table.rows[row].full_name(), row});
+      if (rows[row]) columns_.push_back({table.rows[row].full_name(), row});
   }
   std::string name() const override { return "raw"; }
   bool levels_are_a_choice() const override { return false; }
 
   EncodedValues encode(const ParameterValues& values) const override {
-    return {values, std::vector<char>(values.size(), 1), {}};
+    EncodedValues encoded{{}, std::vector<char>(columns_.size(), 1), {}};
+    encoded.numbers.reserve(columns_.size());
+    for (const EncodingColumn& column : columns_) encoded.numbers.push_back(values[column.row]);
+    return encoded;
   }
 
   DecodedValues decode(const EncodedValues& encoded) const override {
     ESPALIER_CHECK_EQ(encoded.numbers.size(), columns_.size());
-    DecodedValues decoded;
-    for (std::size_t row = 0; row < columns_.size(); ++row)
-      decoded.values.push_back(valid_value(table_->rows[row], encoded.numbers[row], decoded.clamped));
+    DecodedValues decoded{table_->defaults(), {}};
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const std::size_t row = columns_[i].row;
+      decoded.values[row] = valid_value(table_->rows[row], encoded.numbers[i], decoded.clamped);
+    }
     return decoded;
   }
 };
 
 }  // namespace
 
-std::unique_ptr<Encoding> make_raw_encoding(const ParameterTable& table) {
-  return std::make_unique<RawEncoding>(table);
+std::unique_ptr<Encoding> make_raw_encoding(const ParameterTable& table, const std::vector<bool>& rows) {
+  return std::make_unique<RawEncoding>(table, rows);
 }
 
 }  // namespace espalier

@@ -27,6 +27,16 @@ const Model& common_model(std::span<const Preset> presets) {
   return model_by_name(presets[0].model);
 }
 
+/// That say something of one plant or another.
+std::vector<bool> rows_of(const ParameterTable& table, std::span<const Preset> presets) {
+  std::vector<bool> any(table.rows.size(), false);
+  for (const Preset& preset : presets) {
+    const std::vector<bool> in_use = rows_in_use(table, preset.values);
+    for (std::size_t row = 0; row < any.size(); ++row) any[row] = any[row] || in_use[row];
+  }
+  return any;
+}
+
 Eigen::VectorXd vector_of(const std::vector<double>& numbers) {
   return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Index>(numbers.size()));
 }
@@ -107,7 +117,7 @@ PlantAtPoint finish_plant(const SpeciesSpace& space, const Eigen::VectorXd& coor
 SpeciesSpace make_species_space(std::span<const Preset> presets, const std::string& encoding,
                                 int components) {
   const Model& model = common_model(presets);
-  SpeciesSpace space{&model, make_encoding(encoding, model.table()), {}, {}};
+  SpeciesSpace space{&model, make_encoding(encoding, model.table(), rows_of(model.table(), presets)), {}, {}};
   const auto rows = static_cast<Index>(presets.size());
   const auto columns = static_cast<Index>(space.encoding->columns().size());
   Eigen::MatrixXd numbers(rows, columns);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <espalier/core/error.h>
@@ -34,7 +35,7 @@ std::string names_to_toml(const std::vector<Named>& all, std::string (*name)(con
   return fmt::format("[{}]", text);
 }
 
-std::string row_name(const ParameterInfo& row) { return row.full_name(); }
+std::string own_name(const std::string& name) { return name; }
 std::string column_name(const EncodingColumn& column) { return column.name; }
 
 // Reading: each failure names file, line, key, got and expected.
@@ -89,13 +90,31 @@ struct SpaceReader {
   }
 };
 
-SpeciesPoint read_species(const SpaceReader& reader, const ParameterTable& table, int dimension) {
-  SpeciesPoint species;
-  species.name = reader.text("name");
-  const Eigen::VectorXd values = reader.numbers("values", table.rows.size());
+/// The rows that the file lists: all but some of parts that no plant of it has.
+std::vector<std::size_t> read_rows(const SpaceReader& reader, const ParameterTable& table) {
+  const toml::array& listed = reader.array("parameters");
+  std::vector<std::size_t> rows;
+  std::vector<std::string> names;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    species.values.push_back(values[static_cast<Index>(row)]);
-    check_value(table.rows[row], species.values[row], toml_location(reader.source, reader.array("values")));
+    const ParameterInfo& info = table.rows[row];
+    const auto is_it = [&](const toml::node& node) {
+      return node.value_exact<std::string>() == info.full_name();
+    };
+    if (!info.part_of.empty() && std::none_of(listed.begin(), listed.end(), is_it)) continue;
+    rows.push_back(row);
+    names.push_back(info.full_name());
+  }
+  reader.check_names("parameters", names, own_name);
+  return rows;
+}
+
+SpeciesPoint read_species(const SpaceReader& reader, const ParameterTable& table,
+                          const std::vector<std::size_t>& rows, int dimension) {
+  SpeciesPoint species{.name = reader.text("name"), .values = table.defaults()};
+  const Eigen::VectorXd values = reader.numbers("values", rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double value = species.values[rows[i]] = values[static_cast<Index>(i)];
+    check_value(table.rows[rows[i]], value, toml_location(reader.source, reader.array("values")));
   }
   species.coordinates = reader.numbers("coordinates", static_cast<std::size_t>(dimension));
   species.demonstration = reader.flag("demonstration");
@@ -119,12 +138,45 @@ void read_components(const SpaceReader& reader, std::size_t columns, PrincipalCo
 
 }  // namespace
 
+namespace {
+
+/// All but those that the encoding leaves out as part of what no plant has.
+std::vector<std::size_t> written_rows(const SpeciesSpace& space) {
+  const ParameterTable& table = space.model->table();
+  std::vector<bool> in_use(table.rows.size(), false);
+  for (const SpeciesPoint& species : space.species) {
+    const std::vector<bool> of_one = rows_in_use(table, species.values);
+    for (std::size_t row = 0; row < in_use.size(); ++row) in_use[row] = in_use[row] || of_one[row];
+  }
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < in_use.size(); ++row)
+    if (in_use[row]) rows.push_back(row);
+  return rows;
+}
+
+std::vector<std::string> names_of(const ParameterTable& table, const std::vector<std::size_t>& rows) {
+  std::vector<std::string> names;
+  names.reserve(rows.size());
+  for (const std::size_t row : rows) names.push_back(table.rows[row].full_name());
+  return names;
+}
+
+std::vector<double> values_of(const ParameterValues& all, const std::vector<std::size_t>& rows) {
+  std::vector<double> values;
+  values.reserve(rows.size());
+  for (const std::size_t row : rows) values.push_back(all[row]);
+  return values;
+}
+
+}  // namespace
+
 std::string species_space_to_toml(const SpeciesSpace& space) {
   const PrincipalComponents& pca = space.pca;
   std::string text = fmt::format(
       "# A species space: for espalier blend, space and fits\nformat = {}\nmodel = {}\nencoding = {}\n",
       kFormat, quote_toml(space.model->table().model), quote_toml(space.encoding->name()));
-  text += fmt::format("parameters = {}\n", names_to_toml(space.model->table().rows, row_name));
+  const std::vector<std::size_t> rows = written_rows(space);
+  text += fmt::format("parameters = {}\n", names_to_toml(names_of(space.model->table(), rows), own_name));
   text += fmt::format("columns = {}\n", names_to_toml(space.encoding->columns(), column_name));
   text +=
       fmt::format("mean = {}\ndeviation = {}  # 0: constant\nvariance = {}\ncomponents = [\n",
@@ -133,9 +185,10 @@ std::string species_space_to_toml(const SpeciesSpace& space) {
     text += fmt::format("  {},\n", numbers_to_toml(Eigen::VectorXd(pca.components.row(i))));
   text += "]\n";
   for (const SpeciesPoint& species : space.species)
-    text += fmt::format("\n[[species]]\nname = {}\n{}coordinates = {}\nvalues = {}\n",
-                        quote_toml(species.name), species.demonstration ? "demonstration = true\n" : "",
-                        numbers_to_toml(species.coordinates), numbers_to_toml(species.values));
+    text +=
+        fmt::format("\n[[species]]\nname = {}\n{}coordinates = {}\nvalues = {}\n", quote_toml(species.name),
+                    species.demonstration ? "demonstration = true\n" : "",
+                    numbers_to_toml(species.coordinates), numbers_to_toml(values_of(species.values, rows)));
   return text;
 }
 
@@ -148,13 +201,15 @@ SpeciesSpace read_species_space(const std::filesystem::path& path) {
   SpeciesSpace space;
   space.model = &model_by_name(reader.text("model"));
   const ParameterTable& table = space.model->table();
-  space.encoding = make_encoding(reader.text("encoding"), table);
-  reader.check_names("parameters", table.rows, row_name);
+  const std::vector<std::size_t> rows = read_rows(reader, table);
+  std::vector<bool> is_in_file(table.rows.size(), false);
+  for (const std::size_t row : rows) is_in_file[row] = true;
+  space.encoding = make_encoding(reader.text("encoding"), table, is_in_file);
   reader.check_names("columns", space.encoding->columns(), column_name);
   read_components(reader, space.encoding->columns().size(), space.pca);
   for (const toml::node& node : reader.array("species")) {
     if (!node.is_table()) reader.fail("species", "an array of tables");
-    space.species.push_back(read_species({*node.as_table(), source}, table, space.dimension()));
+    space.species.push_back(read_species({*node.as_table(), source}, table, rows, space.dimension()));
   }
   if (space.species.size() < 2) reader.fail("species", "at least 2 of them");
   return space;

@@ -67,6 +67,22 @@ ParameterValues ParameterTable::defaults() const {
   return values;
 }
 
+std::vector<bool> rows_in_use(const ParameterTable& table, std::span<const double> values) {
+  ESPALIER_CHECK_EQ(values.size(), table.rows.size());
+  std::vector<bool> in_use(values.size(), true);
+  std::string_view part;  // that the row before is of
+  bool has_part = true;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    const std::string& part_of = table.rows[row].part_of;
+    if (part_of != part) {
+      part = part_of;
+      has_part = part.empty() || values[table.index_of(part)] != 0;
+    }
+    in_use[row] = has_part;
+  }
+  return in_use;
+}
+
 bool set_role(const ParameterTable& table, RoleOfLevel role, double value, ParameterValues& values) {
   const auto row = table.find(role.role, role.level);
   if (row) values[*row] = std::clamp(value, table.rows[*row].lower, table.rows[*row].upper);

@@ -61,6 +61,20 @@ Vec3 any_direction() {
   return normalized({number(), number(), number()});
 }
 
+/// 400 on a spiral around the sphere.
+const std::vector<Vec3>& many_directions() {
+  static const std::vector<Vec3> directions = [] {
+    std::vector<Vec3> all;
+    for (int i = 0; i < 400; ++i) {
+      const float z = (2 * static_cast<float>(i) + 1) / 400 - 1, r = std::sqrt(1 - z * z);
+      const float angle = 2.399963f * static_cast<float>(i);
+      all.push_back({r * std::cos(angle), r * std::sin(angle), z});
+    }
+    return all;
+  }();
+  return directions;
+}
+
 /// The rim as PlantGL draws it.
 Point rim_point(const CrownShape& crown, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -149,7 +163,8 @@ RC_GTEST_PROP(CrownEnvelope, ItContainsWhatLiesBetweenItsHeights, ()) {
   const bool is_near = heights && std::min(std::fabs(heights->lower_m - double{point.z}),
                                            std::fabs(heights->upper_m - double{point.z})) < 1e-5;
   if (!is_near) RC_ASSERT(crown.contains(point) == is_between);
-  if (is_between) RC_ASSERT(crown.is_under_top(point));
+  if (heights && !is_near) RC_ASSERT(crown.is_under_top(point) == (point.z < heights->upper_m));
+  if (!heights) RC_ASSERT(!crown.is_under_top(point));
   if (std::fabs(crown.signed_distance_m(point)) > 1e-4f)
     RC_ASSERT(crown.contains(point) == (crown.signed_distance_m(point) < 0));
 }
@@ -193,9 +208,39 @@ RC_GTEST_PROP(CrownEnvelope, ABallThatSurelyLiesInsideDoes, ()) {
   const CrownEnvelope crown(shape);
   const float share = static_cast<float>(*rc::gen::inRange(5, 96)) / 100;
   const Vec3 center = lerp(shape.base_m, shape.top_m, share);
-  const float radius = static_cast<float>(*rc::gen::inRange(1, 2000)) / 1000;
-  if (!crown.surely_contains_ball(center, radius)) return;
-  for (int i = 0; i < 30; ++i) RC_ASSERT(crown.contains(center + any_direction() * (radius * 0.999f)));
+  float radius = 0, too_large = 20;  // of the largest such ball
+  for (int i = 0; i < 20; ++i) {
+    const float middle = (radius + too_large) / 2;
+    (crown.surely_contains_ball(center, middle) ? radius : too_large) = middle;
+  }
+  for (const Vec3 direction : many_directions())
+    RC_ASSERT(crown.contains(center + direction * (radius * 0.999f)));
+}
+
+TEST(CrownEnvelope, BallsUnderALowRimAndOverAHighOneAreNotTakenToLieInside) {
+  const CrownEnvelope crown({.top_m = {0, 0, 2},
+                             .base_m = {0, 0, 0},
+                             .radius_m = {1, 1, 1, 1},
+                             .rim_m = {0.1f, 1, 1.9f, 1},
+                             .shape_above = 1,
+                             .shape_below = 1});
+  EXPECT_FALSE(crown.contains({0.5f, 0, 1.15f}));
+  EXPECT_FALSE(crown.surely_contains_ball({0.3f, 0, 1}, 0.3f));
+  EXPECT_FALSE(crown.contains({-0.5f, 0, 0.85f}));
+  EXPECT_FALSE(crown.surely_contains_ball({-0.3f, 0, 1}, 0.3f));
+}
+
+TEST(CrownEnvelope, RaysToSharpEdgesReachThemAsWell) {
+  CrownShape shape = lopsided();
+  shape.shape_above = shape.shape_below = 9;
+  for (const CrownProfile profile : {CrownProfile::superellipse, CrownProfile::power}) {
+    shape.profile = profile;
+    const CrownEnvelope crown(shape);
+    for (const Vec3 direction : many_directions()) {
+      const Vec3 start{0, 0, 0.4f}, end = start + direction * crown.reach_m(start, direction);
+      EXPECT_LT(std::fabs(crown.signed_distance_m(end)), 1e-3f);
+    }
+  }
 }
 
 TEST(CrownEnvelope, BallsWellInsideAreKnownToBe) {

@@ -96,7 +96,7 @@ TEST(Trials, ArePointsThatScoreWhatWasLogged) {
     EXPECT_EQ(std::bit_cast<std::uint64_t>(scores[i]), std::bit_cast<std::uint64_t>(trials[i].value)) << i;
     EXPECT_EQ(trials[i].value, logged[i].value);
     EXPECT_EQ(trials[i].seconds, logged[i].seconds);
-    EXPECT_EQ(hash_values(points[i]), logged[i].candidate_hash);
+    EXPECT_EQ(hash_values(task.model->table(), points[i]), logged[i].candidate_hash);
   }
   const auto best = std::min_element(trials.begin(), trials.end(),
                                      [](const auto& a, const auto& b) { return a.value < b.value; });
