@@ -52,11 +52,14 @@ std::vector<LoggedEvaluation> read_evaluation_log(const std::filesystem::path& p
   return records_of(bytes, path);
 }
 
-std::uint32_t hash_values(const ParameterValues& values) {
+std::uint32_t hash_values(const ParameterTable& table, const ParameterValues& values) {
+  const std::vector<bool> in_use = rows_in_use(table, values);
   std::uint64_t hash = 0xcbf29ce484222325ull;
-  for (const double value : values)
-    for (std::uint64_t bits = std::bit_cast<std::uint64_t>(value), i = 0; i < 8; ++i, bits >>= 8)
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (!in_use[row]) continue;
+    for (std::uint64_t bits = std::bit_cast<std::uint64_t>(values[row]), i = 0; i < 8; ++i, bits >>= 8)
       hash = (hash ^ (bits & 0xff)) * 0x100000001b3ull;
+  }
   return static_cast<std::uint32_t>(hash ^ (hash >> 32));
 }
 

@@ -21,8 +21,8 @@ struct LoggedEvaluation {
   bool operator==(const LoggedEvaluation&) const = default;
 };
 
-/// FNV-1a over the bits of the values.
-std::uint32_t hash_values(const ParameterValues& values);
+/// FNV-1a over the bits of the values that say something of the plant (rows_in_use).
+std::uint32_t hash_values(const ParameterTable& table, const ParameterValues& values);
 
 /// The same over those of the rows in use: curves that change nothing are not told apart from none.
 std::uint32_t hash_values(const ParameterTable& table, const ParameterValues& values);

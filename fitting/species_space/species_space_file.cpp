@@ -99,11 +99,11 @@ struct SpaceReader {
   }
 };
 
-/// Curves that the file does not name are left out, as in what older programs wrote.
+/// Curves and parts that the file does not name are left out, as in what older programs wrote.
 std::vector<bool> written_rows(const SpaceReader& reader, const ParameterTable& table) {
   std::vector<bool> written;
   written.reserve(table.rows.size());
-  for (const ParameterInfo& row : table.rows) written.push_back(row.point < 0);
+  for (const ParameterInfo& row : table.rows) written.push_back(row.point < 0 && row.part_of.empty());
   for (const toml::node& name : reader.array("parameters"))
     if (const auto row = table.find(name.value_or(std::string()))) written[*row] = true;
   return written;

@@ -97,7 +97,18 @@ bool is_neutral(const CurveInfo& curve, std::span<const double> values) {
 }
 
 std::vector<bool> rows_in_use(const ParameterTable& table, std::span<const double> values) {
-  std::vector<bool> in_use(table.rows.size(), true);
+  ESPALIER_CHECK_EQ(values.size(), table.rows.size());
+  std::vector<bool> in_use(values.size(), true);
+  std::string_view part;  // that the row before is of
+  bool has_part = true;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    const std::string& part_of = table.rows[row].part_of;
+    if (part_of != part) {
+      part = part_of;
+      has_part = part.empty() || values[table.index_of(part)] != 0;
+    }
+    in_use[row] = has_part;
+  }
   for (const CurveInfo& curve : table.curves)
     if (is_neutral(curve, values))
       std::fill_n(in_use.begin() + static_cast<std::ptrdiff_t>(curve.first_row), kCurveRows, false);

@@ -46,6 +46,8 @@ struct ParameterInfo {
   int least_levels = 0;  ///< means nothing to a plant with fewer levels of branching than these
   std::vector<std::string> needs =
       {};  ///< means nothing where all these rows (full names) are 0; none: always means
+  std::string part_of =
+      {};  ///< of what some plants lack: the row (full name) that is 0 in those, also its own
   std::string mixed_with = {},
               mixed_by = {};         ///< of a choice: rows of a second choice, and of the share that one has
   RoleOfLevel role = {};             ///< what it is to a fit
@@ -108,7 +110,9 @@ struct ParameterTable {
 /// Whether the curve changes nothing.
 bool is_neutral(const CurveInfo& curve, std::span<const double> values);
 
-/// Rows that say something of the plant: all but those of neutral curves.
+/// Rows that say something of the plant: all but those of neutral curves and those that are part of what it
+/// lacks. Only these are written to files and are columns of spaces, so a model can get new parts and its old
+/// plants stay as they are.
 std::vector<bool> rows_in_use(const ParameterTable& table, std::span<const double> values);
 
 /// Sets the row of this role, if there is one, to the valid value nearest to `value`. False where there is

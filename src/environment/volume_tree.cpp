@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
+#include <span>
 
+#include <espalier/environment/crown_envelope.h>
 #include <espalier/environment/picture_envelope.h>
 #include <espalier/environment/volume_tree.h>
 
@@ -19,9 +22,11 @@ struct Kind {
   bool has_file;
   std::size_t numbers, min_parts, max_parts;
   VolumePtr (*make)(const Numbers&, Parts&&);
+  std::span<const std::string_view> (*names)() =
+      nullptr;  ///< of numbers that are given by name, in any order
 };
 
-constexpr std::array<Kind, 15> kKinds{{
+constexpr std::array<Kind, 16> kKinds{{
     {"box", "box(x,y,z, sx,sy,sz)", false, 6, 0, 0,
      [](const Numbers& n, Parts&&) -> VolumePtr {
        return make_box({n[0], n[1], n[2]}, {n[3], n[4], n[5]});
@@ -46,6 +51,8 @@ constexpr std::array<Kind, 15> kKinds{{
      [](const Numbers& n, Parts&&) -> VolumePtr {
        return make_spiral({{n[0], n[1], n[2]}, n[3], n[4], n[5], n[6], n[7]});
      }},
+    {"crown", "crown(top = z, base = z, radius = r, …)", false, 0, 0, 0,
+     [](const Numbers& n, Parts&&) -> VolumePtr { return make_crown(n); }, crown_arguments},
     {"mesh", "mesh(\"file.obj\")", true, 0, 0, 0,
      [](const Numbers&, Parts&& parts) -> VolumePtr { return parts[0]; }},
     {"picture", "picture(\"file.png\", height)", true, 1, 0, 0,
@@ -112,7 +119,7 @@ class Reader {
     if (++depth_ > kMaxDepth) fail("volumes in fewer volumes");
     VolumeTree tree;
     tree.offset = skip_space();
-    while (at_ < text_.size() && is_word(text_[at_])) tree.kind += text_[at_++];
+    tree.kind = word();
     if (tree.kind.empty()) fail("a volume");
     const Kind* kind = find_kind(tree.kind);
     const bool has_arguments = take('(');
@@ -129,6 +136,7 @@ class Reader {
 
   void arguments(const Kind& kind, VolumeTree& tree) {
     if (kind.has_file) read_file(kind, tree);
+    if (kind.names != nullptr) named_numbers(kind, tree);
     for (std::size_t i = 0; i < kind.numbers; ++i) {
       if (i > 0 || kind.has_file) comma(kind);
       tree.numbers.push_back(number(kind));
@@ -141,6 +149,42 @@ class Reader {
       tree.parts.push_back(volume());
     }
     if (!take(')')) fail(fmt::format("')': {}", kind.form));
+  }
+
+  /// "top = 9, radius = 3", each once.
+  void named_numbers(const Kind& kind, VolumeTree& tree) {
+    do {
+      const std::size_t begin = skip_space();
+      const std::string name = word();
+      const auto names = kind.names();
+      const auto found = std::find(names.begin(), names.end(), name);
+      if (found == names.end())
+        throw VolumeError(begin, fmt::format("got '{}', expected one of {}", name, fmt::join(names, ", ")));
+      const auto slot = static_cast<std::size_t>(found - names.begin());
+      if (std::find(tree.slots.begin(), tree.slots.end(), slot) != tree.slots.end())
+        throw VolumeError(begin, fmt::format("got a second '{}', expected one", name));
+      if (!take('=')) fail(fmt::format("'=' after '{}': {}", name, kind.form));
+      tree.slots.push_back(slot);
+      tree.numbers.push_back(name == "profile" ? profile() : number(kind));
+    } while (take(','));
+  }
+
+  /// The number that stands for the name of a crown's profile.
+  VolumeTree::Number profile() {
+    const std::size_t begin = skip_space();
+    const std::string name = word();
+    const auto profiles = crown_profiles();
+    const auto found = std::find(profiles.begin(), profiles.end(), name);
+    if (found == profiles.end())
+      throw VolumeError(begin,
+                        fmt::format("got profile '{}', expected one of {}", name, fmt::join(profiles, ", ")));
+    return {std::to_string(found - profiles.begin()), begin};
+  }
+
+  std::string word() {
+    std::string word;
+    while (at_ < text_.size() && is_word(text_[at_])) word += text_[at_++];
+    return word;
   }
 
   void comma(const Kind& kind) {
@@ -189,11 +233,28 @@ VolumeTree parse_volume_tree(std::string_view text, const IsName& is_name, const
   return Reader(text, is_name, find_file).whole();
 }
 
+namespace {
+
+/// NaN for those that are not given.
+Numbers named_numbers(const VolumeTree& tree, std::size_t slots, const NumberOf& number) {
+  Numbers numbers(slots, NAN);
+  for (std::size_t i = 0; i < tree.slots.size(); ++i) {
+    const double value = number(tree.numbers[i]);
+    if (!std::isfinite(value))
+      throw VolumeError(tree.numbers[i].offset, fmt::format("got {}, expected a finite number", value));
+    numbers[tree.slots[i]] = static_cast<float>(value);
+  }
+  return numbers;
+}
+
+}  // namespace
+
 VolumePtr make_volume(const VolumeTree& tree, const NumberOf& number, const NamedVolume& named) {
   const Kind* kind = find_kind(tree.kind);
   if (!kind || (tree.numbers.empty() && tree.parts.empty() && !tree.from_file)) return named(tree.kind);
-  Numbers numbers;
-  for (const VolumeTree::Number& n : tree.numbers) numbers.push_back(static_cast<float>(number(n)));
+  Numbers numbers = kind->names ? named_numbers(tree, kind->names().size(), number) : Numbers();
+  if (!kind->names)
+    for (const VolumeTree::Number& n : tree.numbers) numbers.push_back(static_cast<float>(number(n)));
   Parts parts;
   if (tree.from_file) parts.push_back(tree.from_file);
   for (const VolumeTree& part : tree.parts) parts.push_back(make_volume(part, number, named));

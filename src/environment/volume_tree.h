@@ -1,5 +1,5 @@
 // Volumes as text, in L-system files and on the command line: kinds with arguments, and volumes of volumes.
-//   union(box(0,0,6, 12,12,12), cylinder(0,0,12, 3.5,10))
+//   union(box(0,0,6, 12,12,12), crown(top = 14, radius = 3.5))
 // A tree keeps its numbers as text with their place, because L-systems compute them (docs/lsystem.md). The
 // kinds and their arguments are the rows of kKinds in volume_tree.cpp.
 #pragma once
@@ -25,6 +25,7 @@ struct VolumeTree {
   std::string file;        ///< of "mesh" and "picture"
   VolumePtr from_file;     ///< what it holds: a mesh in its size, a picture 1 m high
   std::vector<Number> numbers;
+  std::vector<std::size_t> slots;  ///< of numbers that have names: which of the kind's each one is
   std::vector<VolumeTree> parts;
 };
 

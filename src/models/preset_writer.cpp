@@ -56,8 +56,12 @@ std::string preset_to_toml(const Preset& preset, const ParameterTable& table) {
                         fmt::format("seed = {}", static_cast<std::int64_t>(*preset.seed)));
   if (preset.demonstration) text += "demonstration = true\n";
   text += "\n";
+  const std::vector<bool> in_use = rows_in_use(table, preset.values);
+  const auto is_written = [&](std::size_t i) {
+    return in_use[i] || preset.values[i] != table.rows[i].default_value;
+  };
   for (std::size_t i = 0; i < table.rows.size(); ++i)
-    if (table.rows[i].point < 0 && (i == 0 || table.rows[i].name != table.rows[i - 1].name))
+    if (table.rows[i].point < 0 && is_written(i) && (i == 0 || table.rows[i].name != table.rows[i - 1].name))
       text += fmt::format("{:<36}  # {}\n", assignment(table, table.rows[i].name, preset.values),
                           comment(table.rows[i]));
   for (const CurveInfo& curve : table.curves)

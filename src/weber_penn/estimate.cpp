@@ -6,6 +6,7 @@
 #include <espalier/weber_penn/estimate.h>
 #include <espalier/weber_penn/scalar/stem.h>
 #include <espalier/weber_penn/table/shape_ratio.h>
+#include <espalier/weber_penn/tree_crown.h>
 
 namespace espalier {
 
@@ -74,10 +75,29 @@ double mean_of(const AlongCurve& along) {
   return sum / kSamples;
 }
 
+bool gives_lengths(const WeberPennParameters& p) {
+  return static_cast<CrownUse>(p.crown_use) == CrownUse::length && p.length[0] * p.length[1] > 0;
+}
+
+/// How far the crown envelope reaches from its axis, on average over heights and sides; relative to the
+/// tree's scale.
+double mean_crown_reach(const WeberPennParameters& p) {
+  const CrownEnvelope crown(crown_shape(p, 1));
+  constexpr int kHeights = 4;
+  constexpr std::array kSides{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}};
+  double sum = 0;
+  for (int i = 0; i < kHeights; ++i) {
+    const Vec3 start = lerp(crown.shape().base_m, crown.shape().top_m, (i + 0.5f) / kHeights);
+    for (const Vec3 side : kSides) sum += crown.reach_m(start, side);
+  }
+  return sum / (kHeights * kSides.size());
+}
+
 /// Mean number of children of a stem relative to branches[level + 1].
 double mean_child_share(const WeberPennParameters& p, int level) {
   if (level == 0) return 1;
   if (level > 1) return 0.75;
+  if (gives_lengths(p)) return 0.2 + 0.8 * mean_crown_reach(p) / (p.length[0] * p.length[1]);
   return 0.2 + 0.8 * mean_length_share(p);
 }
 

@@ -20,6 +20,7 @@
 #include <espalier/weber_penn/simd/stem_batch.h>
 #include <espalier/weber_penn/simd/twig_batch.h>
 #include <espalier/weber_penn/table/shape_ratio.h>
+#include <espalier/weber_penn/tree_crown.h>
 
 namespace espalier {
 
@@ -42,12 +43,22 @@ struct Offspring {
 /// Leaves are cut by the volume once all have grown.
 bool cuts_leaves(const GrowthSettings& settings) { return settings.train && settings.prune_to; }
 
+/// The tree's crown is what stems are pruned to or trained along where no other volume is given.
+GrowthSettings with_crown(const GrowthSettings& settings, const TreeCrown& crown) {
+  GrowthSettings result = settings;
+  if (settings.prune_to != nullptr || crown.of_twigs() == nullptr) return result;
+  result.prune_to = crown.of_twigs();
+  result.train = crown.trains();
+  return result;
+}
+
 class Growth {
  public:
-  Growth(const WeberPennParameters& p, const GrowthSettings& settings, Lanes lanes, GrowthMemory& memory,
-         Plant& plant)
+  Growth(const WeberPennParameters& p, const GrowthSettings& settings, const TreeCrown& crown, Lanes lanes,
+         GrowthMemory& memory, Plant& plant)
       : p_(p),
         settings_(settings),
+        crown_(crown),
         uses_vectors_(lanes == Lanes::many),
         plant_(plant),
         stem_batch_(memory.stem_batch),
@@ -93,6 +104,7 @@ class Growth {
 
   const WeberPennParameters& p_;
   const GrowthSettings& settings_;
+  const TreeCrown& crown_;
   bool uses_vectors_;
   Plant& plant_;
   StemBatch& stem_batch_;
@@ -269,7 +281,12 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
   child.offset_m = site.offset_m;
   child.parent_length_m = parent.length_m;
   child.parent_child_max = parent.child_max;
-  child.length_m = changed(change, Quantity::length, site.grown_fraction * child_length_m(parent, site));
+  const CrownEnvelope* crown = crown_.gives_lengths(level);
+  const auto length_m = [&] {
+    const float own_m = crown ? length_to_crown_m(child, *crown, p_) : child_length_m(parent, site);
+    return changed(change, Quantity::length, site.grown_fraction * own_m);
+  };
+  child.length_m = length_m();
   if (child.length_m < kShortestStemM) return;
   // [CH §3.2.1]: starts as close as is safe to the parent's surface; before pruning, which tests where it is.
   const auto radius_m = [&](float length_m) {
@@ -277,6 +294,7 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
   };
   const float unpruned_radius_m = radius_m(child.length_m);
   child.turtle.position_m += site.outward * (site.parent_radius_m - unpruned_radius_m);
+  if (crown) child.length_m = length_m();  // from where it starts now
   if (!prune(child)) return;
   child.radius_m = changed(change, Quantity::radius, radius_m(child.length_m));
   child.child_max = drawn_child_max(child, p_);
@@ -286,10 +304,12 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
 
 /// False where nothing is left of the stem.
 bool Growth::prune(GrowingStem& stem) const {
-  if (settings_.train && settings_.prune_to)
-    train_stem(stem, p_, *settings_.prune_to);
-  else
-    stem.length_m = pruned_length_m(stem, p_, settings_.prune_to);
+  const bool is_to_crown = settings_.prune_to && settings_.prune_to == crown_.of_twigs();
+  const Volume* volume = is_to_crown ? crown_.volume(stem.level) : settings_.prune_to;
+  if (volume && settings_.train)
+    train_stem(stem, p_, *volume);
+  else if (volume || !is_to_crown)
+    stem.length_m = pruned_length_m(stem, p_, volume);
   return stem.length_m >= kShortestStemM;
 }
 
@@ -372,8 +392,10 @@ GrowthResult grow_tree(const WeberPennParameters& parameters, Seed seed, const G
   plant.blossom_shape = static_cast<int>(parameters.blossom_shape);
   plant.stems.first_knot.push_back(0);
   static thread_local GrowthMemory memory;
-  const GrowthResult result = Growth(parameters, settings, lanes, memory, plant).run(seed);
-  if (cuts_leaves(settings)) keep_leaves_inside(*settings.prune_to, plant.leaves);
+  const TreeCrown crown(parameters, tree_scale_m(parameters, child_key(root_key(seed), 0)));
+  const GrowthSettings in_crown = with_crown(settings, crown);
+  const GrowthResult result = Growth(parameters, in_crown, crown, lanes, memory, plant).run(seed);
+  if (cuts_leaves(in_crown)) keep_leaves_inside(*in_crown.prune_to, plant.leaves);
   return result;
 }
 

@@ -109,5 +109,15 @@ TEST(ClosestName, MendsOneWrongLetter) {
   }));
 }
 
+TEST(ParameterTable, PartsThatAPlantLacksAreNotInUse) {
+  const ParameterTable table{"test",
+                             {{.name = "a"},
+                              {.name = "has_b", .part_of = "has_b"},
+                              {.name = "b", .part_of = "has_b"},
+                              {.name = "c"}}};
+  EXPECT_EQ(rows_in_use(table, ParameterValues{0, 0, 5, 0}), (std::vector<bool>{true, false, false, true}));
+  EXPECT_EQ(rows_in_use(table, ParameterValues{0, 2, 0, 0}), (std::vector<bool>{true, true, true, true}));
+}
+
 }  // namespace
 }  // namespace espalier

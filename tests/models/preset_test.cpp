@@ -183,6 +183,17 @@ TEST(PresetCurves, BadOnesAreRefused) {
   for (const auto& [line, error] : errors) EXPECT_EQ(error_of_line(line), error);
 }
 
+TEST(Preset, OfPartsThatATreeLacksOnlyWhatIsNotTheDefaultIsWritten) {
+  Preset preset = load_preset("quaking_aspen");
+  const ParameterTable& table = model_by_name(preset.model).table();
+  EXPECT_THAT(preset_to_toml(preset), Not(HasSubstr("crown_")));
+  preset.values[table.index_of("crown_top_x")] = 0.25;
+  EXPECT_THAT(preset_to_toml(preset), AllOf(HasSubstr("crown_top_x = 0.25"), Not(HasSubstr("crown_use")),
+                                            Not(HasSubstr("crown_top ="))));
+  preset.values[table.index_of("crown_use")] = 3;
+  EXPECT_THAT(preset_to_toml(preset), AllOf(HasSubstr("crown_use = \"train\""), HasSubstr("crown_top = 1 ")));
+}
+
 TEST(Preset, GrowsWithItsSeedUnlessAnotherIsAskedFor) {
   Preset preset = load_preset("apple");
   const auto knots = [&](const PresetGrowth& growth) {

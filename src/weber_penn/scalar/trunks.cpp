@@ -42,7 +42,7 @@ void lean_outwards(StemTurtle& turtle, float disc_radius_m) {
 GrowingStem make_trunk(const WeberPennParameters& p, RandomKey key) {
   GrowingStem trunk;
   trunk.key = key;
-  trunk.tree.scale_m = std::max(0.f, p.g_scale + draw_signed(key, Draw::tree_scale) * p.g_scale_v);
+  trunk.tree.scale_m = tree_scale_m(p, key);
   trunk.length_m = trunk.tree.scale_m * (p.length[0] + draw_signed(key, Draw::trunk_length) * p.length_v[0]);
   trunk.tree.base_length_m = trunk.length_m * p.base_size[0];
   trunk.turtle.roll_right(360 * draw_unit(key, Draw::trunk_roll));
@@ -50,6 +50,10 @@ GrowingStem make_trunk(const WeberPennParameters& p, RandomKey key) {
 }
 
 }  // namespace
+
+float tree_scale_m(const WeberPennParameters& p, RandomKey trunk) {
+  return std::max(0.f, p.g_scale + draw_signed(trunk, Draw::tree_scale) * p.g_scale_v);
+}
 
 void plant_trunks(const WeberPennParameters& p, RandomKey root, std::vector<GrowingStem>& stems) {
   const int count = std::max(1, static_cast<int>(p.branches[0]));

@@ -6,6 +6,9 @@
 
 namespace espalier {
 
+/// The scale of a whole tree, with its variation [Weber & Penn 95, §4.2]; of the key of its first trunk.
+float tree_scale_m(const WeberPennParameters& parameters, RandomKey trunk);
+
 /// Appends the trunks (branches[0] of them) to `stems`, ready to grow.
 void plant_trunks(const WeberPennParameters& parameters, RandomKey root, std::vector<GrowingStem>& stems);
 

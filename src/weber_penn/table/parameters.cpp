@@ -50,6 +50,7 @@ struct Facts {
   bool relaxable = false;  ///< but for a count of trunks
   bool places = false;     ///< says how stems stand on their parents, or leaves on stems of the level above
   ForTrunkAndBranches<Needs> needs;  ///< rows of which one is not 0 where the values mean anything
+  const char* part_of = "";
   const ParameterCodec& (*codec)() = nullptr;
   ForTrunkAndBranches<Role> role;
   ForTrunkAndBranches<std::optional<double>> plain;
@@ -83,6 +84,8 @@ constexpr std::array kLeafChoices = [] {
   return names;
 }();
 constexpr const char* kSwitch[] = {"off", "on"};
+constexpr const char* kCrownUses[] = {"off", "cut", "length", "train"};
+const Facts kOfCrown{.needs = {{"crown_use"}}, .part_of = "crown_use"};
 
 // clang-format off
 const Definition kDefinitions[] = {
@@ -175,6 +178,40 @@ const Definition kDefinitions[] = {
   {&P::prune_power_high, "prune_power_high", "1", {0, 20}, {0.05, 2}, kReal, kNumber, "", "PrunePowerHigh", "curvature of the envelope above its peak"},
   {&P::relaxed_counts, "relaxed_counts", "1", {0, 1}, {0, 1}, kChoice, kNumber, "", "", "on: counts may be fractions, and the last child grows in proportion, so that searches see no jumps",
    {.choices = kSwitch, .role = {Role::relaxed_counts}}},
+  {&P::crown_use, "crown_use", "1", {0, 3}, {0, 3}, kChoice, kNumber, "", "", "what the crown envelope of the crown_… rows does: nothing; cut stems; give stems on the trunk their lengths; bend stems along it",
+   {.choices = kCrownUses, .part_of = "crown_use", .plain = {0}}},
+  {&P::crown_top, "crown_top", "1", {0.05, 3}, {0.5, 1.2}, kReal, kNumber, "", "", "height of the top of the crown envelope, relative to the scale of the tree",
+   kOfCrown},
+  {&P::crown_top_x, "crown_top_x", "1", {-0.7, 0.7}, {-0.5, 0.5}, kReal, kNumber, "", "", "how far the top lies along x, as a fraction of the radius on that side",
+   kOfCrown},
+  {&P::crown_top_y, "crown_top_y", "1", {-0.7, 0.7}, {-0.5, 0.5}, kReal, kNumber, "", "", "how far the top lies along y, as a fraction of the radius on that side",
+   kOfCrown},
+  {&P::crown_base, "crown_base", "1", {0, 0.95}, {0, 0.7}, kReal, kNumber, "", "", "height of the base of the crown envelope, as a fraction of the top's",
+   kOfCrown},
+  {&P::crown_base_x, "crown_base_x", "1", {-0.7, 0.7}, {-0.5, 0.5}, kReal, kNumber, "", "", "how far the base lies along x, as a fraction of the radius on that side",
+   kOfCrown},
+  {&P::crown_base_y, "crown_base_y", "1", {-0.7, 0.7}, {-0.5, 0.5}, kReal, kNumber, "", "", "how far the base lies along y, as a fraction of the radius on that side",
+   kOfCrown},
+  {&P::crown_radius_right, "crown_radius_right", "1", {0.005, 3}, {0.05, 0.8}, kLog, kNumber, "", "", "radius of the rim of the crown to the right (x > 0), relative to the scale of the tree",
+   kOfCrown},
+  {&P::crown_radius_back, "crown_radius_back", "1", {0.005, 3}, {0.05, 0.8}, kLog, kNumber, "", "", "radius of the rim of the crown to the back (y > 0), relative to the scale of the tree",
+   kOfCrown},
+  {&P::crown_radius_left, "crown_radius_left", "1", {0.005, 3}, {0.05, 0.8}, kLog, kNumber, "", "", "radius of the rim of the crown to the left, relative to the scale of the tree",
+   kOfCrown},
+  {&P::crown_radius_front, "crown_radius_front", "1", {0.005, 3}, {0.05, 0.8}, kLog, kNumber, "", "", "radius of the rim of the crown to the front, relative to the scale of the tree",
+   kOfCrown},
+  {&P::crown_rim_right, "crown_rim_right", "1", {0, 1}, {0.05, 0.95}, kReal, kNumber, "", "", "height of the rim to the right (x > 0), from 0 at the base of the crown to 1 at its top",
+   kOfCrown},
+  {&P::crown_rim_back, "crown_rim_back", "1", {0, 1}, {0.05, 0.95}, kReal, kNumber, "", "", "height of the rim to the back (y > 0), from 0 at the base of the crown to 1 at its top",
+   kOfCrown},
+  {&P::crown_rim_left, "crown_rim_left", "1", {0, 1}, {0.05, 0.95}, kReal, kNumber, "", "", "height of the rim to the left, from 0 at the base of the crown to 1 at its top",
+   kOfCrown},
+  {&P::crown_rim_front, "crown_rim_front", "1", {0, 1}, {0.05, 0.95}, kReal, kNumber, "", "", "height of the rim to the front, from 0 at the base of the crown to 1 at its top",
+   kOfCrown},
+  {&P::crown_shape_above, "crown_shape_above", "1", {0.1, 20}, {0.5, 6}, kLog, kNumber, "", "", "how the crown bulges above its rim: 1 a cone, 2 an ellipsoid, under 1 hollow",
+   kOfCrown},
+  {&P::crown_shape_below, "crown_shape_below", "1", {0.1, 20}, {0.5, 6}, kLog, kNumber, "", "", "how the crown bulges below its rim: 1 a cone, 2 an ellipsoid, under 1 hollow",
+   kOfCrown},
 };
 // clang-format on
 
@@ -276,6 +313,7 @@ ParameterInfo make_row(const Definition& definition, int level, float default_va
           .codec = facts.codec ? &facts.codec() : nullptr,
           .least_levels = least_levels_of(definition, level),
           .needs = needs_of(definition, level),
+          .part_of = facts.part_of,
           .mixed_with = facts.mixed_with,
           .mixed_by = facts.mixed_by,
           .role = role_of(definition, level),

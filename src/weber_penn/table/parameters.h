@@ -40,6 +40,13 @@ struct WeberPennParameters {
   float prune_ratio = 0, prune_width = 0.5f, prune_width_peak = 0.5f;
   float prune_power_low = 0.5f, prune_power_high = 0.5f;
   float relaxed_counts = 0;
+  float crown_use = 0;
+  float crown_top = 1, crown_top_x = 0, crown_top_y = 0;
+  float crown_base = 0.3f, crown_base_x = 0, crown_base_y = 0;
+  float crown_radius_right = 0.3f, crown_radius_back = 0.3f, crown_radius_left = 0.3f,
+        crown_radius_front = 0.3f;
+  float crown_rim_right = 0.4f, crown_rim_back = 0.4f, crown_rim_left = 0.4f, crown_rim_front = 0.4f;
+  float crown_shape_above = 2, crown_shape_below = 2;
   StemCurves curves;  ///< along stems; the table's last rows
 
   int level_count() const { return static_cast<int>(levels); }

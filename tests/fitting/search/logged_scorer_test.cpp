@@ -23,6 +23,11 @@ std::vector<ParameterValues> candidates(int count) {
   return list;
 }
 
+const ParameterTable& two_rows() {
+  static const ParameterTable kTable{"test", {{.name = "a"}, {.name = "b"}}};
+  return kTable;
+}
+
 struct LoggedRun {
   std::vector<double> scores;
   BestCandidate best;
@@ -100,6 +105,17 @@ TEST(LoggedScorer, RefusesALogOfOtherCandidates) {
       inner, kTable, log, 0, [] { return 0.0; }, [](const ScoredBatch&) {});
   double score = 0;
   EXPECT_THROW(scorer.score(std::vector<ParameterValues>{{3.0, 0.25}}, {&score, 1}), InputError);
+}
+
+TEST(EvaluationLog, TheHashOfACandidateIsThatOfItsValuesInUse) {
+  const ParameterTable table{
+      "test",
+      {{.name = "a"}, {.name = "b"}, {.name = "part", .part_of = "part"}, {.name = "of", .part_of = "part"}}};
+  const std::uint32_t plain = hash_values(two_rows(), {3.0, 0.25});
+  EXPECT_NE(plain, hash_values(two_rows(), {3.0, 0.5}));
+  EXPECT_EQ(plain, hash_values(table, {3.0, 0.25, 0, 7}));
+  EXPECT_NE(plain, hash_values(table, {3.0, 0.25, 1, 7}));
+  EXPECT_NE(hash_values(table, {3.0, 0.25, 1, 8}), hash_values(table, {3.0, 0.25, 1, 7}));
 }
 
 TEST(EvaluationLog, ReportsAFullDisk) {

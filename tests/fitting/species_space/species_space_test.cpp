@@ -42,6 +42,48 @@ std::string space_error(const std::vector<Preset>& presets, int components) {
   return "no error";
 }
 
+/// Bundled presets, the first two with crowns of these radii to the left.
+std::vector<Preset> with_crowns(double first_radius, double second_radius) {
+  std::vector<Preset> presets = load_presets({"quaking_aspen", "silver_birch", "apple"});
+  const ParameterTable& table = model_by_name("weber_penn").table();
+  for (const auto& [i, radius] : {std::pair{0, first_radius}, std::pair{1, second_radius}}) {
+    ParameterValues& values = presets[static_cast<std::size_t>(i)].values;
+    values[table.index_of("crown_use")] = 2;
+    values[table.index_of("crown_radius_left")] = radius;
+  }
+  return presets;
+}
+
+bool has_column(const SpeciesSpace& space, const std::string& name) {
+  return std::any_of(space.encoding->columns().begin(), space.encoding->columns().end(),
+                     [&](const EncodingColumn& column) { return column.name == name; });
+}
+
+TEST(SpeciesSpace, HasNoColumnsOfWhatAllSpeciesLack) {
+  for (const char* encoding : {"raw", "monotone"}) {
+    EXPECT_FALSE(has_column(bundled_space(2, encoding), "crown_radius_left")) << encoding;
+    EXPECT_TRUE(has_column(make_species_space(with_crowns(0.2, 0.4), encoding, 1), "crown_radius_left"));
+  }
+}
+
+TEST(SpeciesSpace, CrownsOfItsSpeciesAreKeptAndReadBackFromAFile) {
+  const SpeciesSpace space = make_species_space(with_crowns(0.2, 0.4), "monotone", 2);
+  const std::size_t row = space.model->table().index_of("crown_radius_left");
+  for (const std::size_t i : {0, 1})
+    EXPECT_NEAR(plant_at(space, space.species[i].coordinates).values[row], i == 0 ? 0.2 : 0.4, 1e-9);
+  for (const auto& [presets, listed] : {std::pair{with_crowns(0.2, 0.4), true}, {load_presets({}), false}}) {
+    const SpeciesSpace written = make_species_space(presets, "monotone", 2);
+    const std::string text = species_space_to_toml(written);
+    EXPECT_EQ(text.find("crown_radius_left") != std::string::npos, listed);
+    const auto file = fresh_folder("crowns") / "space.toml";
+    std::ofstream(file) << text;
+    const SpeciesSpace read = read_species_space(file);
+    EXPECT_EQ(species_space_to_toml(read), text);
+    for (std::size_t i = 0; i < read.species.size(); ++i)
+      EXPECT_EQ(read.species[i].values, written.species[i].values);
+  }
+}
+
 TEST(SpeciesSpace, AllComponentsHoldEverySpecies) {
   for (const char* encoding : {"raw", "monotone"}) {
     const SpeciesSpace space = bundled_space(17, encoding);

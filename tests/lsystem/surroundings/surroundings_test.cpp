@@ -33,6 +33,14 @@ TEST(Surroundings, ExpressionsSeeVolumes) {
   EXPECT_EQ(after_one_step(clip, "A --> B(inside(clip, 3, 0, 0) and 7 or 8)"), "B(7)");
 }
 
+TEST(Surroundings, NamedNumbersOfACrownAreExpressions) {
+  const std::string clip =
+      "param r = 2 in 1 .. 3\nvolume clip = crown(radius = max(r, 1), top = 2*r, rim = 1)";
+  EXPECT_EQ(after_one_step(clip, "A : inside(clip, 1.9, 0, 1) --> B"), "B");
+  EXPECT_EQ(after_one_step(clip, "A : inside(clip, 2.1, 0, 1) --> B"), "A");
+  EXPECT_EQ(after_one_step(clip, "A : inside(clip, 0, 0, 3.9) --> B"), "B");
+}
+
 TEST(Surroundings, LuaSeesTheSame) {
   const std::string clip =
       "volume clip = ball(0,0,0, 2)\nlua:\n  function at(x) return distance(clip, x, 0, 0) end";
@@ -115,6 +123,9 @@ TEST(Surroundings, FaultsAreOneLineWithTheirPlace) {
       {"volume clip = union(core, ball(0,0,0,1))" + end, "test.lsys:1:21: got the unknown volume 'core'"},
       {"volume clip = ball(0,0,0, 1-1)" + end, "test.lsys:1:15: ball: radius is 0"},
       {"volume clip = ball(0,0,0, 1/0)" + end, "test.lsys:1:27: '1/0' is no finite number"},
+      {"volume clip = crown(top = 2-3, radius = 1)" + end,
+       "test.lsys:1:15: crown: top is -1, expected more than its base, 0"},
+      {"volume clip = crown(top = 2, radius = 1/0)" + end, "test.lsys:1:39: '1/0' is no finite number"},
       {"volume clip = ball(0,0,0, r)" + end, "test.lsys:1:27: 'r': got the unknown name 'r'"},
       {"volume clip = mesh(\"a.obj\")" + end, "test.lsys:1:21: got file \"a.obj\", expected none"},
       {"volume c = ball(0,0,0,1)\nvolume c = ball(0,0,0,1)" + end, "test.lsys:2:8: got 'c' a second time"},
