@@ -63,15 +63,6 @@ std::uint32_t hash_values(const ParameterTable& table, const ParameterValues& va
   return static_cast<std::uint32_t>(hash ^ (hash >> 32));
 }
 
-std::uint32_t hash_values(const ParameterTable& table, const ParameterValues& values) {
-  const std::vector<bool> in_use = rows_in_use(table, values);
-  ParameterValues used;
-  used.reserve(values.size());
-  for (std::size_t row = 0; row < values.size(); ++row)
-    if (in_use[row]) used.push_back(values[row]);
-  return hash_values(used);
-}
-
 EvaluationLog::EvaluationLog(const std::filesystem::path& path) : path_(path) {
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (file_ < 0)

@@ -23,6 +23,7 @@ std::vector<ParameterValues> candidates(int count) {
   return list;
 }
 
+/// Of candidates: two numbers each.
 const ParameterTable& two_rows() {
   static const ParameterTable kTable{"test", {{.name = "a"}, {.name = "b"}}};
   return kTable;
@@ -34,15 +35,12 @@ struct LoggedRun {
   long computed = 0, evaluations = 0;
 };
 
-/// Of candidates: two numbers each.
-const ParameterTable kTable{"two", {{.name = "a"}, {.name = "b"}}};
-
 /// Scores `total` candidates in batches of `batch`, with the log in `folder`.
 LoggedRun run_logged(const fs::path& folder, int total, int batch, long limit = 0) {
   SumScorer inner;
   EvaluationLog log(folder / "evaluations.bin");
   LoggedScorer scorer(
-      inner, kTable, log, limit, [] { return 1.5; }, [](const ScoredBatch&) {});
+      inner, two_rows(), log, limit, [] { return 1.5; }, [](const ScoredBatch&) {});
   const auto all = candidates(total);
   LoggedRun result;
   result.scores.resize(all.size());
@@ -102,7 +100,7 @@ TEST(LoggedScorer, RefusesALogOfOtherCandidates) {
   SumScorer inner;
   EvaluationLog log(folder / "evaluations.bin");
   LoggedScorer scorer(
-      inner, kTable, log, 0, [] { return 0.0; }, [](const ScoredBatch&) {});
+      inner, two_rows(), log, 0, [] { return 0.0; }, [](const ScoredBatch&) {});
   double score = 0;
   EXPECT_THROW(scorer.score(std::vector<ParameterValues>{{3.0, 0.25}}, {&score, 1}), InputError);
 }
