@@ -61,15 +61,6 @@ struct Calibration {
   double overlap = 0;                 ///< share of the trees
 };
 
-double rank_of(const Posterior& posterior, std::size_t unknown, double truth) {
-  double below = 0;
-  for (Eigen::Index i = 0; i < posterior.weights.size(); ++i) {
-    const double value = posterior.unknowns(i, static_cast<Eigen::Index>(unknown));
-    below += posterior.weights[i] * (value < truth ? 1 : value == truth ? 0.5 : 0);
-  }
-  return below;
-}
-
 std::vector<Verdict> judge(const PosteriorEstimator& estimator, const PosteriorEstimator& other,
                            const std::vector<Unknown>& unknowns, const Eigen::RowVectorXd& truth,
                            const Eigen::RowVectorXd& summaries) {
@@ -85,7 +76,7 @@ std::vector<Verdict> judge(const PosteriorEstimator& estimator, const PosteriorE
           summary[i].intervals[k].first <= value && value <= summary[i].intervals[k].second;
     const auto &a = summary[i].intervals.back(), &b = second[i].intervals.back();
     verdicts[i].overlaps = a.first <= b.second && b.first <= a.second;
-    verdicts[i].rank = rank_of(posterior, i, value);
+    verdicts[i].rank = posterior_share(posterior, i, value);
     verdicts[i].width_share = summary[i].width_share;
     verdicts[i].error = std::fabs(summary[i].median - value) / std::max(std::fabs(value), 1e-12);
   }

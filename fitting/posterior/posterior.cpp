@@ -1,9 +1,12 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <espalier/core/error.h>
+#include <espalier/core/parallel_for.h>
+#include <espalier/fitting/posterior/interval_factors.h>
 #include <espalier/fitting/posterior/posterior.h>
 
 namespace espalier {
@@ -36,9 +39,12 @@ Eigen::MatrixXd less_parts(Eigen::MatrixXd rows, const Eigen::MatrixXd& of_parts
   return rows;
 }
 
-/// `offsets`: of all draws from the picture.
-Neighbours nearest(const Eigen::MatrixXd& offsets) {
-  const Eigen::VectorXd distances = offsets.rowwise().squaredNorm();
+constexpr Eigen::Index kNobody = -1;
+
+/// `offsets`: of all draws from the picture; `itself`: a draw that is no neighbour.
+Neighbours nearest(const Eigen::MatrixXd& offsets, Eigen::Index itself) {
+  Eigen::VectorXd distances = offsets.rowwise().squaredNorm();
+  if (itself != kNobody) distances[itself] = std::numeric_limits<double>::infinity();
   const auto rows = static_cast<double>(offsets.rows());
   const auto count = static_cast<std::size_t>(std::max(kNearShare * rows, std::min(kLeastNear, 0.5 * rows)));
   Neighbours near;
@@ -123,28 +129,90 @@ constexpr double kEndShare = 0.001;
 
 }  // namespace
 
+namespace {
+
+/// The unknown's draws in the order of their values.
+std::vector<Eigen::Index> order_of(const Posterior& posterior, std::size_t unknown) {
+  const auto values = posterior.unknowns.col(index(unknown));
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
+  return order;
+}
+
+/// Moves the unknown's draws away from their median, or to it.
+void widen(Posterior& posterior, std::size_t unknown, const IntervalFactors& factors) {
+  const double median = posterior_quantile(posterior, unknown, 0.5);
+  double below = 0;
+  for (const Eigen::Index draw : order_of(posterior, unknown)) {
+    const double weight = posterior.weights[draw], share = below + 0.5 * weight;
+    below += weight;
+    if (!(weight > 0)) continue;
+    double& value = posterior.unknowns(draw, index(unknown));
+    value =
+        median + (value - median) * factor_at(factors, normal_quantile(std::clamp(share, 1e-9, 1 - 1e-9)));
+  }
+}
+
+}  // namespace
+
 PosteriorEstimator::PosteriorEstimator(const Eigen::MatrixXd& unknowns, const Eigen::MatrixXd& summaries,
-                                       int threads)
+                                       const TrainingSettings& training, int threads)
     : unknown_scores_of_((check_table(unknowns, summaries), unknowns)),
       summary_scores_of_(summaries),
-      regression_(summary_scores_of_.scores(summaries), unknown_scores_of_.scores(unknowns), threads),
+      regression_(summary_scores_of_.scores(summaries), unknown_scores_of_.scores(unknowns), training,
+                  threads),
       residuals_(unknown_scores_of_.scores(unknowns) - regression_.predictions_of_draws()),
       points_(regression_.points(regression_.predictions_of_draws())),
       lowest_(column_quantiles(regression_.predictions_of_draws(), kEndShare)),
-      highest_(column_quantiles(regression_.predictions_of_draws(), 1 - kEndShare)) {}
+      highest_(column_quantiles(regression_.predictions_of_draws(), 1 - kEndShare)) {
+  factors_ = factors_from_witnesses(unknown_scores_of_.scores(unknowns), summary_scores_of_.scores(summaries),
+                                    threads);
+}
+
+/// Posteriors of plants that no network has seen, themselves left out of the near ones.
+std::vector<IntervalFactors> PosteriorEstimator::factors_from_witnesses(const Eigen::MatrixXd& unknown_scores,
+                                                                        const Eigen::MatrixXd& summary_scores,
+                                                                        int threads) const {
+  const std::vector<Eigen::Index> witnesses = SummaryRegression::witnesses(unknown_scores.rows());
+  Eigen::MatrixXd shares(index(witnesses.size()), unknown_scores.cols());
+  parallel_for(
+      witnesses.size(),
+      [&](std::size_t i) {
+        const Eigen::Index row = witnesses[i];
+        const Posterior posterior = scores_near(summary_scores.row(row), row);
+        for (Eigen::Index unknown = 0; unknown < unknown_scores.cols(); ++unknown)
+          shares(index(i), unknown) =
+              posterior_share(posterior, static_cast<std::size_t>(unknown), unknown_scores(row, unknown));
+      },
+      threads);
+  std::vector<IntervalFactors> factors;
+  factors.reserve(static_cast<std::size_t>(shares.cols()));
+  for (const auto& of_unknown : shares.colwise())
+    factors.push_back(interval_factors({of_unknown.begin(), of_unknown.end()}));
+  return factors;
+}
+
+Posterior PosteriorEstimator::scores_near(const Eigen::RowVectorXd& summary_scores,
+                                          Eigen::Index itself) const {
+  Eigen::MatrixXd predicted = regression_.predict(summary_scores);
+  for (auto part : predicted.rowwise()) part = part.cwiseMax(lowest_).cwiseMin(highest_);
+  const Eigen::MatrixXd offsets = less_parts(points_, regression_.points(predicted));
+  const Neighbours near = nearest(offsets, itself);
+  const Eigen::MatrixXd errors =
+      adjusted(rows_of(offsets, near.rows), near.weights, rows_of(residuals_, near.rows));
+  return {near.rows, near.weights,
+          (errors * regression_.shrinkage().asDiagonal()).rowwise() + predicted.colwise().mean()};
+}
 
 Posterior PosteriorEstimator::estimate(const std::vector<double>& summaries) const {
   ESPALIER_CHECK_EQ(summaries.size(), summary_scores_of_.size());
-  const Eigen::RowVectorXd observed = summary_scores_of_.scores(
-      Eigen::Map<const Eigen::RowVectorXd>(summaries.data(), index(summaries.size())));
-  Eigen::MatrixXd predicted = regression_.predict(observed);
-  for (auto part : predicted.rowwise()) part = part.cwiseMax(lowest_).cwiseMin(highest_);
-  const Eigen::MatrixXd offsets = less_parts(points_, regression_.points(predicted));
-  const Neighbours near = nearest(offsets);
-  Posterior posterior{near.rows, near.weights,
-                      adjusted(rows_of(offsets, near.rows), near.weights, rows_of(residuals_, near.rows))};
-  posterior.unknowns =
-      (posterior.unknowns * regression_.shrinkage().asDiagonal()).rowwise() + predicted.colwise().mean();
+  Posterior posterior = scores_near(summary_scores_of_.scores(Eigen::Map<const Eigen::RowVectorXd>(
+                                        summaries.data(), index(summaries.size()))),
+                                    kNobody);
+  for (std::size_t unknown = 0; unknown < factors_.size(); ++unknown)
+    widen(posterior, unknown, factors_[unknown]);
   for (Eigen::Index column = 0; column < posterior.unknowns.cols(); ++column)
     for (double& score : posterior.unknowns.col(column))
       score = unknown_scores_of_[static_cast<std::size_t>(column)].value(score);
@@ -161,10 +229,7 @@ double PosteriorEstimator::prior_share(std::size_t unknown, double value) const 
 
 double posterior_quantile(const Posterior& posterior, std::size_t unknown, double share) {
   const auto values = posterior.unknowns.col(index(unknown));
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
+  const std::vector<Eigen::Index> order = order_of(posterior, unknown);
   double below = 0, last_middle = 0, last_value = values[order.front()];
   for (const Eigen::Index i : order) {
     const double middle = below + 0.5 * posterior.weights[i];
@@ -177,6 +242,15 @@ double posterior_quantile(const Posterior& posterior, std::size_t unknown, doubl
     last_value = values[i];
   }
   return last_value;
+}
+
+double posterior_share(const Posterior& posterior, std::size_t unknown, double value) {
+  double below = 0;
+  for (Eigen::Index i = 0; i < posterior.weights.size(); ++i) {
+    const double drawn = posterior.unknowns(i, index(unknown));
+    below += posterior.weights[i] * (drawn < value ? 1 : drawn == value ? 0.5 : 0);
+  }
+  return below;
 }
 
 std::vector<std::size_t> equal_draws(const Posterior& posterior, std::size_t count) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <espalier/fitting/posterior/interval_factors.h>
 #include <espalier/fitting/posterior/summary_regression.h>
 
 namespace espalier {
@@ -27,7 +28,8 @@ class PosteriorEstimator {
  public:
   /// A row a draw in both; throws InputError for fewer than kLeastTableSize rows.
   /// The same for any number of threads (0: one a processor).
-  PosteriorEstimator(const Eigen::MatrixXd& unknowns, const Eigen::MatrixXd& summaries, int threads = 0);
+  PosteriorEstimator(const Eigen::MatrixXd& unknowns, const Eigen::MatrixXd& summaries,
+                     const TrainingSettings& training = posterior_training(), int threads = 0);
 
   /// `summaries`: of the picture, in the order of the table's columns.
   Posterior estimate(const std::vector<double>& summaries) const;
@@ -37,16 +39,26 @@ class PosteriorEstimator {
   double prior_share(std::size_t unknown, double value) const;
 
  private:
+  /// Scores of the unknowns; `itself`: the table's row that shows the picture, or -1.
+  Posterior scores_near(const Eigen::RowVectorXd& summary_scores, Eigen::Index itself) const;
+  std::vector<IntervalFactors> factors_from_witnesses(const Eigen::MatrixXd& unknown_scores,
+                                                      const Eigen::MatrixXd& summary_scores,
+                                                      int threads) const;
+
   ColumnScores unknown_scores_of_, summary_scores_of_;
   SummaryRegression regression_;
   Eigen::MatrixXd residuals_;  ///< scores of the draws' unknowns, less their predictions
   Eigen::MatrixXd points_;     ///< of the draws' predictions
   Eigen::RowVectorXd lowest_,
       highest_;  ///< nearly all predictions: a picture beyond is taken to be at the end
+  std::vector<IntervalFactors> factors_;  ///< of the distances of draws from their median
 };
 
 /// The value below which `share` of the weight lies, linear between the middles of the draws' weights.
 double posterior_quantile(const Posterior& posterior, std::size_t unknown, double share);
+
+/// The share of the weight below the value, with half of what lies on it.
+double posterior_share(const Posterior& posterior, std::size_t unknown, double value);
 
 /// `count` rows of the posterior with equal weights: systematic resampling (Kitagawa 1996) from the middle,
 /// so without random numbers.

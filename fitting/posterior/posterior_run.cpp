@@ -189,7 +189,7 @@ PosteriorResult compute_posterior(const PosteriorRequest& request, const Mask& m
   if (table.size() < request.simulations) return result;
   const auto rows_asked = static_cast<Eigen::Index>(request.simulations);  // a kept table may have more
   const PosteriorEstimator estimator(table.unknowns.topRows(rows_asked), table.summaries.topRows(rows_asked),
-                                     threads);
+                                     request.training, threads);
   Posterior posterior = estimator.estimate(observed);
   const Eigen::MatrixXd replicates = replicated_summaries(prior, table, posterior, threads);
   result.check = check_prediction(replicates, table.summaries.topRows(rows_asked), observed);

@@ -21,6 +21,7 @@ struct PosteriorRequest {
   Seed seed = 1;
   std::filesystem::path table;  ///< empty: table.bin in the directory
   std::string version;          ///< of the program, for the files
+  TrainingSettings training = posterior_training();
 };
 
 struct PosteriorResult {

@@ -28,9 +28,6 @@ inline constexpr double kDeterminedWidth = 0.4, kPartlyWidth = 0.8;
 
 Determination determination_of(double width_share);
 
-/// Central intervals that are told.
-inline constexpr std::array<double, 3> kIntervals{0.5, 0.8, 0.9};
-
 struct UnknownSummary {
   Unknown unknown;
   std::array<std::pair<double, double>, kIntervals.size()> intervals;  ///< in the order of kIntervals

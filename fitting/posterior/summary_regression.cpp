@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include <espalier/core/parallel_for.h>
-#include <espalier/fitting/posterior/networks/network_training.h>
 #include <espalier/fitting/posterior/summary_regression.h>
 
 namespace espalier {
@@ -69,13 +68,11 @@ Eigen::MatrixXd ColumnScores::scores(const Eigen::MatrixXd& columns) const {
 namespace {
 
 Network network_of_part(const Eigen::MatrixXd& summary_scores, const Eigen::MatrixXd& unknown_scores,
-                        std::size_t part) {
-  const TrainingSettings settings{
-      .hidden = {256, 256, 256}, .epochs = 20, .batch = 128, .dropout = 0.1F, .step = 3e-3F, .decay = 0.01F};
+                        const TrainingSettings& training, std::size_t part) {
   const std::vector<Eigen::Index> others = rows_where(
       summary_scores.rows(), [&](Eigen::Index row) { return !is_of_part(row, part) && !is_witness(row); });
   return train_network(to_floats(summary_scores(others, Eigen::all)),
-                       to_floats(unknown_scores(others, Eigen::all)), settings, child_key(root_key(0), part));
+                       to_floats(unknown_scores(others, Eigen::all)), training, child_key(root_key(0), part));
 }
 
 /// Errors of the mean of all networks beside those of each, over the witnesses.
@@ -97,12 +94,20 @@ Eigen::RowVectorXd shrinkage_of(const std::array<Network, kParts>& networks,
 
 }  // namespace
 
+TrainingSettings posterior_training() {
+  return {
+      .hidden = {256, 256, 256}, .epochs = 20, .batch = 128, .dropout = 0.1F, .step = 3e-3F, .decay = 0.01F};
+}
+
 SummaryRegression::SummaryRegression(const Eigen::MatrixXd& summary_scores,
-                                     const Eigen::MatrixXd& unknown_scores, int threads) {
+                                     const Eigen::MatrixXd& unknown_scores, const TrainingSettings& training,
+                                     int threads) {
   const Eigen::Index rows = summary_scores.rows();
   parallel_for(
       kParts,
-      [&](std::size_t part) { networks_[part] = network_of_part(summary_scores, unknown_scores, part); },
+      [&](std::size_t part) {
+        networks_[part] = network_of_part(summary_scores, unknown_scores, training, part);
+      },
       threads);
   of_draws_.resize(rows, unknown_scores.cols());
   for (std::size_t part = 0; part < kParts; ++part) {
@@ -113,6 +118,10 @@ SummaryRegression::SummaryRegression(const Eigen::MatrixXd& summary_scores,
   }
   whitening_ = whitening_of(of_draws_);
   shrinkage_ = shrinkage_of(networks_, summary_scores, unknown_scores);
+}
+
+std::vector<Eigen::Index> SummaryRegression::witnesses(Eigen::Index rows) {
+  return rows_where(rows, is_witness);
 }
 
 Eigen::MatrixXd SummaryRegression::predict(const Eigen::RowVectorXd& summary_scores) const {

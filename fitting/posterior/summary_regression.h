@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-#include <espalier/fitting/posterior/networks/network.h>
+#include <espalier/fitting/posterior/networks/network_training.h>
 #include <espalier/fitting/posterior/normal_scores.h>
 
 namespace espalier {
@@ -29,14 +29,19 @@ class ColumnScores {
 /// is as far from the truth of a part's draws as from that of a picture (Vovk, "Cross-conformal predictors",
 /// Annals of Mathematics and Artificial Intelligence 74, 2015). Of every kWitnesses draws one is seen by
 /// none.
-inline constexpr std::size_t kParts = 4, kWitnesses = 41;
+inline constexpr std::size_t kParts = 4, kWitnesses = 21;
+
+/// What was chosen by measurement (experiments/posterior_calibration.md).
+TrainingSettings posterior_training();
 
 class SummaryRegression {
  public:
   /// Scores of summaries and of unknowns, a row a draw. The same for any number of threads (0: one a
   /// processor).
   SummaryRegression(const Eigen::MatrixXd& summary_scores, const Eigen::MatrixXd& unknown_scores,
-                    int threads);
+                    const TrainingSettings& training, int threads);
+  /// Rows of a table of so many that no network has seen.
+  static std::vector<Eigen::Index> witnesses(Eigen::Index rows);
   /// Predicted scores of the unknowns, a row a part: by its network.
   Eigen::MatrixXd predict(const Eigen::RowVectorXd& summary_scores) const;
   /// Of the draws, a row each, by the network of its part.

@@ -13,6 +13,7 @@
 #include <espalier/models/models.h>
 
 #include "support/prior_silhouettes.h"
+#include "support/small_training.h"
 #include "support/temporary_folders.h"
 
 namespace espalier {
@@ -32,7 +33,8 @@ PosteriorRequest small_request() {
           .simulations = kLeastTableSize,
           .samples = 50,
           .table = shared_table(),
-          .version = "test"};
+          .version = "test",
+          .training = small_training()};
 }
 
 bool always(std::size_t, std::size_t) { return true; }
@@ -113,7 +115,8 @@ double coverage_90(double narrowed) {
   static const PlantPrior prior(model_by_name("weber_penn"));
   const ReferenceTable table = read_table(shared_table(), prior, 1, 10);
   const auto rows = static_cast<Eigen::Index>(kLeastTableSize);
-  const PosteriorEstimator estimator(table.unknowns.topRows(rows), table.summaries.topRows(rows));
+  const PosteriorEstimator estimator(table.unknowns.topRows(rows), table.summaries.topRows(rows),
+                                     small_training());
   PlantSimulator simulator(prior, 10);
   double held = 0, counted = 0;
   for (std::uint64_t i = 0; i < kTrees; ++i) {

@@ -9,6 +9,8 @@
 #include <espalier/fitting/posterior/interval_chart.h>
 #include <espalier/fitting/posterior/posterior_summary.h>
 
+#include "support/small_training.h"
+
 namespace espalier {
 namespace {
 
@@ -40,7 +42,7 @@ const Toy& toy_table() {
 }
 
 const PosteriorEstimator& estimator() {
-  static const PosteriorEstimator made(toy_table().unknowns, toy_table().summaries);
+  static const PosteriorEstimator made(toy_table().unknowns, toy_table().summaries, small_training());
   return made;
 }
 
