@@ -39,6 +39,7 @@ struct WeberPennParameters {
   float prune_ratio = 0, prune_width = 0.5f, prune_width_peak = 0.5f;
   float prune_power_low = 0.5f, prune_power_high = 0.5f;
   float relaxed_counts = 0;
+  float least_radius = 0.005f;
 
   int level_count() const { return static_cast<int>(levels); }
 };
