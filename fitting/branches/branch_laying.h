@@ -1,11 +1,12 @@
-// Laying a branch on a line of the picture: an evolution strategy bends, turns, shortens and moves it along
-// its parent, by offsets (branch_offsets.h), until it lies there. How deep it goes no silhouette says: that
-// is given.
+// Laying a branch on a line of the picture: it gets an axis (overrides/drawn_axis.h) in the world's frame, by
+// linear least squares, and the length of that. What grows is looked at a few times: to move the branch along
+// its parent to where the line begins, to choose the side of the parent that it stands on, and to see how
+// long and how thick it is. How deep it goes no silhouette says: that is given.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include <espalier/fitting/branches/branch_offsets.h>
-#include <espalier/fitting/optimizers/random_stream.h>
 #include <espalier/fitting/task/fit_task.h>
 #include <espalier/image/reading/medial_axes.h>
 
@@ -19,25 +20,28 @@ struct LineInPicture {
 
 class BranchLayer {
  public:
-  /// `reseeds`: the branch may get other random numbers.
-  BranchLayer(const FitTask& task, bool reseeds) : task_(task), reseeds_(reseeds) {}
+  explicit BranchLayer(const FitTask& task) : task_(task) {}
 
-  /// The offsets with which the branch of this path of `tree` lies on the line.
-  BranchOffsets lay(const LineInPicture& line, const BranchPath& path, const Solution& tree,
-                    RandomStream& draws);
+  /// The offsets and the axis with which the branch of this path of `tree` lies on the line. Those of a
+  /// branch that does not grow are none.
+  BranchOffsets lay(const LineInPicture& line, const BranchPath& path, const Solution& tree);
+
+  /// How often lay() has grown a branch.
+  long evaluations() const { return evaluations_; }
 
  private:
-  BranchOffsets mutated(BranchOffsets branch, double sigma, RandomStream& draws) const;
-  bool try_one(const BranchOffsets& branch, Solution& one, BranchOffsets& best, double& best_error);
   bool grow(const BranchOffsets& branch, Solution& one);
-  double error_of(const BranchOffsets& branch, Solution& one);
+  std::optional<Vec3> base_of(const BranchOffsets& branch, Solution& one);
+  void move_to_start(const LineInPicture& line, BranchOffsets& branch, Solution& one);
+  void lift_line(const LineInPicture& line, double depth_m);
+  void choose_side(const LineInPicture& line, BranchOffsets& branch, Solution& one);
+  bool follow_line(const LineInPicture& line, BranchOffsets& branch, Solution& one);
   void set_radius(double width_px, BranchOffsets& branch, Solution& one);
 
   const FitTask& task_;
-  bool reseeds_;
   Plant plant_;
-  std::vector<PixelPoint> target_, grown_;
-  double outward_ = 0;
+  std::vector<Vec3> line_m_;  ///< in space, evenly spaced
+  long evaluations_ = 0;
 };
 
 }  // namespace espalier

@@ -13,6 +13,8 @@ void set_or_drop(OverrideSet& set, const Override& entry, bool differs) {
   std::erase_if(set.overrides, [&](const Override& other) { return other.quantity == entry.quantity; });
 }
 
+std::size_t count_numbers(const std::optional<DrawnAxis>& axis) { return axis ? 3 * axis->points.size() : 0; }
+
 void read_override(const Override& entry, BranchOffsets& branch) {
   if (entry.quantity == Quantity::seed) branch.seed = static_cast<std::uint64_t>(entry.number);
   for (std::size_t i = 0; i < kBranchDimensions.size(); ++i) {
@@ -32,12 +34,13 @@ bool removes(const OverrideNode& node) {
 
 std::size_t count_numbers(const BranchOffsets& branch) {
   const auto moved = std::count_if(branch.at.begin(), branch.at.end(), [](double x) { return x != 0; });
-  return static_cast<std::size_t>(moved) + (branch.seed != 0) + branch.removed;
+  return static_cast<std::size_t>(moved) + (branch.seed != 0) + branch.removed + count_numbers(branch.axis);
 }
 
 std::size_t count_numbers(const Overrides& overrides) {
   std::size_t count = 0;
-  for (const OverrideNode& node : overrides.nodes) count += node.set.overrides.size();
+  for (const OverrideNode& node : overrides.nodes)
+    count += node.set.overrides.size() + count_numbers(node.set.axis);
   return count;
 }
 
@@ -46,6 +49,7 @@ BranchOffsets read_offsets(const BranchPath& path, const Overrides& overrides) {
   const OverrideNode* node = overrides.find(path);
   if (!node) return branch;
   branch.removed = removes(*node);
+  branch.axis = node->set.axis;
   for (const Override& entry : node->set.overrides) read_override(entry, branch);
   return branch;
 }
@@ -62,6 +66,7 @@ void write_offsets(const BranchOffsets& branch, Overrides& overrides) {
   set_or_drop(set, {Quantity::seed, Relation::value, static_cast<double>(branch.seed), true},
               branch.seed != 0);
   set_or_drop(set, {Quantity::removed, Relation::value, 1, true}, branch.removed);
+  set.axis = branch.axis;
 }
 
 Solution branch_alone(const BranchPath& path, const Solution& solution) {

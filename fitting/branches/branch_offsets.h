@@ -1,8 +1,10 @@
-// What a search changes of one branch: seven offsets from what the model gives it, other random numbers, or
-// its removal. Written to, and read from, the overrides of its path, private to it.
+// What a search changes of one branch: seven offsets from what the model gives it, the points of its axis
+// where it has one, other random numbers, or its removal. Written to, and read from, the overrides of its
+// path, private to it.
 #pragma once
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include <espalier/fitting/branches/solution.h>
 
@@ -37,14 +39,21 @@ struct BranchOffsets {
   std::array<double, kBranchDimensions.size()> at{};  ///< coordinates of kBranchDimensions
   std::uint64_t seed = 0;                             ///< of other random numbers; 0: its own
   bool removed = false;
+  std::optional<DrawnAxis> axis;  ///< it follows
 };
+
+/// Whether the offset changes nothing of a branch: a world's axis stands as it is drawn.
+inline bool is_idle(std::size_t dimension, const BranchOffsets& branch) {
+  return branch.axis && branch.axis->frame == AxisFrame::world &&
+         kBranchDimensions[dimension].quantity == Quantity::down_angle;
+}
 
 BranchOffsets read_offsets(const BranchPath& path, const Overrides& overrides);
 
 /// Leaves what the node says of other quantities as it is.
 void write_offsets(const BranchOffsets& branch, Overrides& overrides);
 
-/// What write_offsets writes of the branch: offsets that are not 0, a seed, its removal.
+/// What write_offsets writes of the branch: offsets that are not 0, a seed, its removal, its axis.
 std::size_t count_numbers(const BranchOffsets& branch);
 
 /// The same of all branches of a tree.

@@ -170,6 +170,7 @@ class Refinement {
     if (draws_.chance(branch.removed ? kBranchStep.returns : kBranchStep.removes)) {
       child.removed = !child.removed;
       if (child.removed) return freedom_.price > 0 ? removed_alone(child) : child;
+      if (child.axis) return child;  // where it was
       for (std::size_t i = 0; i < child.at.size(); ++i)
         child.at[i] =
             clamped(i, freedom_.share * kBranchStep.return_spread * draws_.normal(), freedom_.share);
@@ -183,18 +184,43 @@ class Refinement {
       forget_one(child);
       return child;
     }
+    if (child.axis && draws_.chance(kBranchStep.moves_points)) {
+      move_points(child);
+      return child;
+    }
     const bool all = draws_.chance(kBranchStep.moves_all);
     for (std::size_t i = 0; i < child.at.size(); ++i)
-      if (all || draws_.chance(kBranchStep.moves_each))
-        child.at[i] =
-            clamped(i, child.at[i] + freedom_.share * child.sigma * draws_.normal(), freedom_.share);
+      if (!is_idle(i, child) && (all || draws_.chance(kBranchStep.moves_each)))
+        child.at[i] = moved(i, child.at[i], freedom_.share * child.sigma * draws_.normal());
     return child;
+  }
+
+  /// An offset that was laid beyond its range does not go further, and need not come back.
+  double moved(std::size_t dimension, double from, double step) const {
+    const double to = clamped(dimension, from + step, freedom_.share);
+    return std::clamp(from + step, std::min(from, to), std::max(from, to));
+  }
+
+  /// One point of the axis, or all from it on. Where one view alone shows the branch, in that view's plane:
+  /// of the depth it would say nothing.
+  void move_points(Branch& branch) {
+    std::vector<AxisPoint>& points = branch.axis->points;
+    const Camera& camera = task_.views[0].camera;
+    const double range = freedom_.share * kBranchStep.point_range * branch.sigma;
+    const Vec3 step =
+        camera.right * static_cast<float>(range * draws_.normal()) +
+        camera.up * static_cast<float>(range * draws_.normal()) +
+        camera.forward * (task_.views.size() > 1 ? static_cast<float>(range * draws_.normal()) : 0);
+    const std::size_t first = draws_.below(points.size());
+    const std::size_t end = draws_.chance(0.5) ? first + 1 : points.size();
+    for (std::size_t i = first; i < end; ++i) points[i] = points[i] + AxisPoint{step.x, step.y, step.z};
   }
 
   /// Where numbers have a price, a branch that is gone has no others.
   static Branch removed_alone(const Branch& branch) {
     Branch alone = branch;
     alone.at = {};
+    alone.axis.reset();
     alone.seed = 0;
     return alone;
   }
@@ -234,9 +260,7 @@ class Refinement {
 
   void finish() {
     for (const Branch& branch : branches_) write_offsets(branch, solution_.overrides);
-    std::erase_if(solution_.overrides.nodes, [](const OverrideNode& node) {
-      return node.set.overrides.empty() && node.set.shares.empty();
-    });
+    std::erase_if(solution_.overrides.nodes, [](const OverrideNode& node) { return node.set.empty(); });
     Masks masks;
     drawer_.draw(solution_, nullptr, masks);
     solution_.score = score_of_drawn(task_, masks) + price_of_numbers(task_, solution_);

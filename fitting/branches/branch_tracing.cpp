@@ -12,7 +12,8 @@ namespace espalier {
 namespace {
 
 constexpr int kDeepest = 4;           ///< levels of branching
-constexpr double kMostOutward = 0.7;  ///< depth over length in the picture, of a branch
+constexpr double kMostOutward = 0.7;  ///< depth over length in the picture, of a branch on a branch
+constexpr double kSteepest = 1.2;     ///< the same, of a branch on the trunk
 constexpr std::size_t kBuds = 4;      ///< on each branch: where refinement may add what was not traced
 
 /// A tree whose branches are all alike and none at random, so that overrides say what each is. False where
@@ -34,11 +35,13 @@ bool make_plain(const ParameterTable& table, const MedialAxis& trunk, double met
 class Tracer {
  public:
   Tracer(const FitTask& task, const TracingSettings& settings, std::vector<MedialAxis> axes, Solution& traced)
-      : key_(settings.key),
-        axes_(std::move(axes)),
-        traced_(traced),
-        layer_(task, task.model->can_change(Quantity::seed)) {
+      : key_(settings.key), axes_(std::move(axes)), traced_(traced), layer_(task) {
     children_.resize(axes_.size());
+    auto [left_px, right_px] = std::pair(axes_[0].points[0].x, axes_[0].points[0].x);
+    for (const MedialAxis& axis : axes_)
+      for (const PixelPoint& point : axis.points)
+        left_px = std::min(left_px, point.x), right_px = std::max(right_px, point.x);
+    half_width_px_ = 0.5 * (right_px - left_px);
     for (std::size_t i = 1; i < axes_.size(); ++i)
       children_[static_cast<std::size_t>(axes_[i].parent)].push_back(i);
   }
@@ -77,13 +80,27 @@ class Tracer {
   void lay(std::size_t axis, const BranchPath& path) {
     constexpr double kWidthOfBase = 1.2;  // over the median of the lower third, which is what is known
     RandomStream draws(child_key(key_, axis));
-    const LineInPicture line{axes_[axis].points, kWidthOfBase * axes_[axis].width_px,
-                             path.size() == 1 ? 0 : kMostOutward * draws.uniform_signed()};
-    write_offsets(layer_.lay(line, path, traced_, draws), traced_.overrides);
+    const double draw = draws.uniform_signed();
+    const double outward = path.size() == 1   ? 0
+                           : path.size() == 2 ? outward_of(axes_[axis], path.back(), draw)
+                                              : kMostOutward * draw;
+    const LineInPicture line{axes_[axis].points, kWidthOfBase * axes_[axis].width_px, outward};
+    write_offsets(layer_.lay(line, path, traced_), traced_.overrides);
+  }
+
+  /// Of a branch on the trunk: its tip is in a crown that is as deep as it is wide, every other one before
+  /// the trunk, and further from it than half of what is free there.
+  double outward_of(const MedialAxis& axis, std::uint32_t index, double draw) const {
+    const PixelPoint base = axis.points.front(), tip = axis.points.back(), foot = axes_[0].points.front();
+    const double aside_px = tip.x - foot.x;
+    const double free_px = std::sqrt(std::max(0.0, half_width_px_ * half_width_px_ - aside_px * aside_px));
+    const double depth_px = (index % 2 == 0 ? 1 : -1) * (0.75 + 0.25 * draw) * free_px;
+    return std::clamp(depth_px / std::hypot(tip.x - base.x, tip.y - base.y), -kSteepest, kSteepest);
   }
 
   RandomKey key_;
   std::vector<MedialAxis> axes_;
+  double half_width_px_ = 0;  ///< of the crown
   std::vector<std::vector<std::size_t>> children_;
   Solution& traced_;
   BranchLayer layer_;

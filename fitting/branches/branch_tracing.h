@@ -1,8 +1,8 @@
 // A start for branch by branch refinement, where the picture shows the branches: trunk and branches are
-// traced along the medial axes of the mask (image/reading/medial_axes.h), and each axis becomes one branch of
-// a plain tree, bent, turned and shortened by overrides until it lies on its axis. How far a branch comes out
-// of the picture's plane no silhouette says: each gets a moderate angle towards the viewer or away from him,
-// so that the tree is not flat.
+// traced along the medial axes of the mask (image/reading/medial_axes.h), and each becomes one branch of a
+// plain tree, with a drawn axis that is fitted to it (branch_laying.h). How far a branch comes out of the
+// picture's plane no silhouette says: each gets a moderate angle towards the viewer or away from him, so that
+// the tree is not flat.
 #pragma once
 #include <espalier/fitting/branches/solution.h>
 #include <espalier/fitting/task/fit_task.h>

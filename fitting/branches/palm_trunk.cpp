@@ -37,8 +37,7 @@ std::map<std::string, double> palm_parameters(const ParameterTable& table, const
 Overrides lay_palm_trunk(const FitTask& task, const TrunkLine& line, const ParameterValues& values) {
   const Seed seed = task.plant_seeds.front();
   Solution tree{values, seed, {}, 1};
-  RandomStream draws(root_key(seed));
-  BranchOffsets trunk = BranchLayer(task, false).lay({line.points, line.foot_width_px, 0}, {0}, tree, draws);
+  BranchOffsets trunk = BranchLayer(task).lay({line.points, line.foot_width_px, 0}, {0}, tree);
   trunk.at.back() = 0;  // its radius is a parameter
   write_offsets(trunk, tree.overrides);
   return tree.overrides;

@@ -14,19 +14,20 @@ struct BranchStepPolicy {
   double reseeds = 0.08;       ///< chance that it draws the branch other random numbers
   double moves_all = 0.3;      ///< chance that it changes all offsets
   double moves_each = 0.4;     ///< chance of each offset, where not all are changed
+  double moves_points = 0.5;   ///< chance that it moves points of an axis, where the branch has one
+  double point_range = 0.25;   ///< of a point, over the branch's length, at a step size of 1
   double forgets = 0.15;  ///< chance that it gives one number back to the model, where numbers have a price
 };
 inline constexpr BranchStepPolicy kBranchStep;
 
 /// Of laying a branch on a line (branch_laying.h).
 struct LayingPolicy {
-  std::size_t points = 9;     ///< compared along a line
-  double depth_weight = 0.1;  ///< of errors in depth, against those in the picture
-  int first_turns = 12;       ///< directions tried around the parent before the strategy begins
-  int steps = 700;            ///< of the evolution strategy
-  double first_sigma = 0.2;
-  double reseeds = 0.15;    ///< chance that a step draws the branch other random numbers
-  double moves_each = 0.5;  ///< chance of each offset
+  std::size_t points = 48;      ///< of the line, that the axis is fitted to
+  int turns = 8;                ///< sides of the parent that the branch may stand on
+  int moves = 3;                ///< steps along the parent to where the line begins
+  double tolerance = 0.08;      ///< the same over the width of the branch
+  double tolerance_px = 0.5;    ///< root mean square, of an axis that needs no more points
+  double least_px_a_point = 3;  ///< of the line's length: shorter lines have axes of fewer points
 };
 inline constexpr LayingPolicy kLaying;
 

@@ -1,4 +1,4 @@
-// The step size of the (1+1) evolution strategies of branches, in coordinates of kBranchDimensions.
+// The step size of the (1+1) evolution strategy of branches, in coordinates of kBranchDimensions.
 // Rechenberg's rule (Evolutionsstrategie, 1973): a success widens it, a failure narrows it, and it stays as
 // it is where one step in five succeeds: 1.5 · 0.92^4 is about 1.
 #pragma once

@@ -22,6 +22,10 @@ Vec3 rotation_start(Vec3 direction) {
   return normalized(from - direction * dot(direction, from));
 }
 
+Vec3 to_vector(AxisPoint p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
 /// sin(x/2) / (x/2): of an arc of this angle, the chord's share of the length.
 float chord_share(float angle_deg) {
   const float half_rad = angle_deg * 0.00872664626f;
@@ -48,6 +52,18 @@ void check_finite(const Plant& plant) {
 Turn Reshaper::Shape::turn_at(float fraction) const {
   if (!bends()) return turn;
   return turn * turn_about(bend_axis, bend_deg * fraction + bend_back_deg * std::max(0.f, 2 * fraction - 1));
+}
+
+/// Along an axis all is turned the shortest way from the direction that grew to the one that is drawn.
+Turn Reshaper::turn_along(std::uint32_t stem, const Shape& shape, float fraction) const {
+  const Turn bent = shape.turn_at(fraction);
+  if (!shape.axis) return bent;
+  const Plant& plant = base_.plant;
+  const StemPlace place = arcs_.place_at(plant.stems, stem, fraction);
+  const AxisPoint drawn = shape.axis_arcs->direction(shape.axis_arcs->place_at(fraction));
+  return turn_between(bent(direction_at(plant.stems, plant.knots, stem, place)),
+                      shape.axis_frame(to_vector(drawn))) *
+         bent;
 }
 
 Reshaper::Reshaper(JointedPlant plant)
@@ -125,6 +141,7 @@ void Reshaper::shape_stem(std::uint32_t stem, const ChangeGraph* changes) {
   if (change) {
     change_direction(stem, *change, stand, shape);
     change_numbers(stem, *change, shape);
+    set_axis(stem, stand, shape);
   }
   if (shape.moves) move_knots(stem, shape, stand.new_base_m, length_factor);
   shapes_[stem] = shape;
@@ -146,7 +163,7 @@ Reshaper::Stand Reshaper::stand_of(std::uint32_t stem, const BranchChange* chang
     turn = turn_between(direction, direction_at(stems, plant.knots, origin, new_place));
   }
   if (shapes_[origin].moves)
-    turn = shapes_[origin].turn_at(arcs_.fraction_at(stems, origin, new_place)) * turn;
+    turn = turn_along(origin, shapes_[origin], arcs_.fraction_at(stems, origin, new_place)) * turn;
   const Vec3 foot_m = point_at(stems, plant.knots, origin, place),
              new_foot_m = point_at(stems, knots_of(origin), origin, new_place);
   return {base_m, direction, new_foot_m + turn(base_m - foot_m), turn};
@@ -198,7 +215,38 @@ void Reshaper::change_numbers(std::uint32_t stem, const BranchChange& change, Sh
   if (grown_m > 0) shape.radius_factor = std::max(0.f, radius.apply(grown_m) / grown_m);
 }
 
+/// An axis says all of the stem's form: nothing bends it further.
+void Reshaper::set_axis(std::uint32_t stem, const Stand& stand, Shape& shape) const {
+  shape.axis = shape.cursor.axis();
+  if (!shape.axis) return;
+  shape.axis_arcs.emplace(shape.axis->curve);
+  shape.moves = true;
+  shape.bend_deg = shape.bend_back_deg = 0;
+  if (shape.axis->frame == AxisFrame::world) return;
+  shape.axis_frame = shape.turn;
+  if (base_.plant.stems.origin[stem] < 0) return;
+  const Vec3 first = direction_at(base_.plant.stems, base_.plant.knots, stem, {});
+  const Vec3 away = cross(axis_between(stand.direction, first), first);
+  shape.axis_frame = shape.turn * Turn{cross(away, first), away, first};
+}
+
+/// As the axis is drawn, in the size of the stem.
+void Reshaper::draw_knots(std::uint32_t stem, const Shape& shape, Vec3 base_m, float factor) {
+  const Knots& from = base_.plant.knots;
+  const float whole_m = arcs_.of_stem_m(base_.plant.stems, stem);
+  const float metres = whole_m * factor / static_cast<float>(shape.axis_arcs->length());
+  for (std::size_t k = base_.plant.stems.first_knot[stem]; k < base_.plant.stems.first_knot[stem + 1]; ++k) {
+    const float fraction = whole_m > 0 ? arcs_.at_knot_m(k) / whole_m : 0;
+    const AxisPoint drawn = axis_point(shape.axis->curve, shape.axis_arcs->place_at(fraction));
+    const Turn turn = turn_along(stem, shape, fraction);
+    moved_.point_m[k] = base_m + shape.axis_frame(to_vector(drawn)) * metres;
+    moved_.handle_in_m[k] = moved_.point_m[k] + turn(from.handle_in_m[k] - from.point_m[k]) * factor;
+    moved_.handle_out_m[k] = moved_.point_m[k] + turn(from.handle_out_m[k] - from.point_m[k]) * factor;
+  }
+}
+
 void Reshaper::move_knots(std::uint32_t stem, const Shape& shape, Vec3 base_m, float factor) {
+  if (shape.axis) return draw_knots(stem, shape, base_m, factor);
   const Knots& from = base_.plant.knots;
   const std::size_t first = base_.plant.stems.first_knot[stem], end = base_.plant.stems.first_knot[stem + 1];
   const float whole_m = arcs_.of_stem_m(base_.plant.stems, stem);
@@ -283,7 +331,7 @@ void Reshaper::write_leaf(std::uint32_t leaf, Plant& shaped) const {
   const auto stem = static_cast<std::uint32_t>(organ.stem);
   if (organ.stem >= 0 && shapes_[stem].moves) {
     const Stems& stems = base_.plant.stems;
-    const Turn turn = shapes_[stem].turn_at(arcs_.fraction_at(stems, stem, organ.place));
+    const Turn turn = turn_along(stem, shapes_[stem], arcs_.fraction_at(stems, stem, organ.place));
     position_m = point_at(stems, moved_, stem, organ.place) +
                  turn(position_m - point_at(stems, base_.plant.knots, stem, organ.place));
     axis = normalized(turn(axis));

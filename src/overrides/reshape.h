@@ -11,8 +11,13 @@
 //                   middle on, degrees
 //   radius          at the base, or the largest where that is 0, m
 //   child_count     of the stems, and of the leaves, on it: the first ones stay, none are added
+//   axis            of the stem's own frame as defined above: z along its first direction, y away from its
+//   origin;
+//                   of trunks, and of the world's axes, that of the front view. The stem keeps its knots.
 // A seed changes nothing: the plant is not grown anew.
 #pragma once
+#include <optional>
+
 #include <espalier/overrides/change_graph.h>
 #include <espalier/overrides/groups.h>
 #include <espalier/overrides/stem_measures.h>
@@ -45,6 +50,10 @@ class Reshaper {
     Vec3 bend_axis;
     float bend_deg = 0, bend_back_deg = 0;
 
+    const StemAxis* axis = nullptr;  ///< it follows
+    std::optional<AxisArcs> axis_arcs;
+    Turn axis_frame;  ///< from what is drawn to the world
+
     bool bends() const { return bend_deg != 0 || bend_back_deg != 0; }
     Turn turn_at(float fraction) const;
   };
@@ -65,6 +74,9 @@ class Reshaper {
   void change_direction(std::uint32_t stem, const BranchChange& change, const Stand& stand,
                         Shape& shape) const;
   void change_numbers(std::uint32_t stem, const BranchChange& change, Shape& shape) const;
+  void set_axis(std::uint32_t stem, const Stand& stand, Shape& shape) const;
+  Turn turn_along(std::uint32_t stem, const Shape& shape, float fraction) const;
+  void draw_knots(std::uint32_t stem, const Shape& shape, Vec3 base_m, float factor);
   void move_knots(std::uint32_t stem, const Shape& shape, Vec3 base_m, float factor);
   const Knots& knots_of(std::uint32_t stem) const { return shapes_[stem].moves ? moved_ : base_.plant.knots; }
 

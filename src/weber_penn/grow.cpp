@@ -179,7 +179,8 @@ class Growth::StemGrowth : public StemVisitor {
 Offspring Growth::offspring(const GrowingStem& stem) {
   if (stem.level + 1 >= p_.level_count()) {
     if (p_.leaf_blos_num == 0 || !is_shown(stem)) return {};
-    return {.leaves = true, .batch = uses_vectors_ && LeafBatch::supports(stem, p_) ? &leaf_batch_ : nullptr};
+    const bool in_batches = uses_vectors_ && !stem.axis && LeafBatch::supports(stem, p_);
+    return {.leaves = true, .batch = in_batches ? &leaf_batch_ : nullptr};
   }
   if (settings_.only_part && settings_.only_part->alone && is_shown(stem)) return {};
   const bool are_changed = stem.cursor.changes_below() || !is_shown(stem);
@@ -302,10 +303,12 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
   next_level_.push_back(child);
 }
 
-/// False where nothing is left of the stem.
+/// False where nothing is left of the stem. One that follows an axis stays where that is drawn: it is not
+/// trained to grow elsewhere.
 bool Growth::prune(GrowingStem& stem) const {
   const bool is_to_crown = settings_.prune_to && settings_.prune_to == crown_.of_twigs();
   const Volume* volume = is_to_crown ? crown_.volume(stem.level) : settings_.prune_to;
+  if (volume && settings_.train && stem.axis) return stem.length_m >= kShortestStemM;
   if (volume && settings_.train)
     train_stem(stem, p_, *volume);
   else if (volume || !is_to_crown)

@@ -94,12 +94,12 @@ AxisPoint axis_slope(const AxisCurve& axis, double u) {
 }
 
 /// Gauss's rule of three points in each part: of polynomials up to the fifth degree it is exact.
-AxisArcs::AxisArcs(const AxisCurve& axis) : axis_(axis) {
+AxisArcs::AxisArcs(const AxisCurve& axis) : axis_(&axis) {
   constexpr double kOff = 0.7745966692414834;  // the square root of 3/5
   constexpr double kPart = 1.0 / kParts;
   for (std::size_t i = 0; i < kParts; ++i) {
     const auto speed = [&](double off) {
-      return espalier::length(axis_slope(axis_, (static_cast<double>(i) + 0.5 + off / 2) * kPart));
+      return espalier::length(axis_slope(*axis_, (static_cast<double>(i) + 0.5 + off / 2) * kPart));
     };
     at_[i + 1] = at_[i] + (5 * speed(-kOff) + 8 * speed(0) + 5 * speed(kOff)) / 18 * kPart;
   }
@@ -116,9 +116,9 @@ double AxisArcs::place_at(double share) const {
 /// Where points lie on each other the curve stands still: its direction is that of what is around.
 AxisPoint AxisArcs::direction(double u) const {
   const double least = 1e-6 * length();
-  AxisPoint along = axis_slope(axis_, u);
+  AxisPoint along = axis_slope(*axis_, u);
   for (double around = 1.0 / 64; espalier::length(along) < least && around < 1; around *= 2)
-    along = axis_point(axis_, std::min(1.0, u + around)) - axis_point(axis_, std::max(0.0, u - around));
+    along = axis_point(*axis_, std::min(1.0, u + around)) - axis_point(*axis_, std::max(0.0, u - around));
   const double norm = espalier::length(along);
   return norm > 0 ? along * (1 / norm) : AxisPoint{0, 0, 1};
 }

@@ -37,7 +37,7 @@ AxisCurve make_axis(std::span<const AxisPoint> after_base);
 AxisPoint axis_point(const AxisCurve& axis, double u);
 AxisPoint axis_slope(const AxisCurve& axis, double u);
 
-/// An axis by its length.
+/// An axis by its length. Valid as long as the axis.
 class AxisArcs {
  public:
   explicit AxisArcs(const AxisCurve& axis);
@@ -49,7 +49,7 @@ class AxisArcs {
 
  private:
   static constexpr std::size_t kParts = 4 * (kAxisPoints - 3);
-  const AxisCurve& axis_;
+  const AxisCurve* axis_;
   std::array<double, kParts + 1> at_{};  ///< length up to the end of each part of [0, 1]
 };
 

@@ -58,19 +58,24 @@ ChildPlacer::ChildPlacer(const GrowingStem& stem, Bears bears, const WeberPennPa
       rotation_deg_(360 * draw_unit(stem.key, Draw::child_rotation_start)) {}
 
 void ChildPlacer::begin(const GrowingStem& stem, const Segment& segment) {
-  const int segments = segment_count(p_, stem.level), walked = segment_count(stem, p_);
+  const int segments = segment_count(p_, stem.level);
   stem_ = &stem;
   segment_ = &segment;
-  last_segment_ = segment.z_end >= 1;
+  steps_ = segment_count(stem, p_) / segments;
+  const int walked = static_cast<int>(segment.z_start * static_cast<float>(segments * steps_) + 0.5f);
+  step_ = walked % steps_;
+  if (step_ > 0) return;
+  last_segment_ = walked + steps_ == segments * steps_;
   const float grown_part = 1 - static_cast<float>(stem.first_segment) / static_cast<float>(segments);
   const float share = bears_ == Bears::leaves ? grown_part : stem.child_share;
   if (!spacing_.is_even()) {
-    part_ = spacing_.part_of(segment.z_start, segment.z_end);
+    part_ = steps_ == 1 ? spacing_.part_of(segment.z_start, segment.z_end)
+                        : spacing_.part_of(walked / steps_, segments);
     rate_ = std::max(0.f, count_) * share * part_.share();
     inverse_rate_ = 1 / rate_;
   } else if (share != share_) {
     share_ = share;
-    rate_ = std::max(0.f, count_) * share / static_cast<float>(walked);
+    rate_ = std::max(0.f, count_) * share / static_cast<float>(segments);
     inverse_rate_ = 1 / rate_;
   }
   before_ = reached_;
@@ -139,8 +144,9 @@ bool ChildPlacer::next_along(ChildSlot& slot) {
   const bool relaxed_last = p_.relaxed_counts > 0 && last_segment_ && missing < 1;
   if (!is_whole && !relaxed_last) return false;
   const float shift = placed_ % 2 == 1 ? distribution_ : 0;  // 1: opposite the one before it
-  const float t = (static_cast<float>(placed_) - shift - before_) * inverse_rate_;
-  slot = {placed_, along_segment(t), next_rotation_deg(), is_whole ? 1 : 1 - missing};
+  const float t = along_segment((static_cast<float>(placed_) - shift - before_) * inverse_rate_);
+  if (is_further_on(t)) return false;
+  slot = {placed_, on_step(t), next_rotation_deg(), is_whole ? 1 : 1 - missing};
   ++placed_;
   return true;
 }
@@ -158,10 +164,11 @@ bool ChildPlacer::next_in_whorl(ChildSlot& slot) {
       rotation_deg_ += p_.rotate[child_level_];
       continue;
     }
-    const float t = (whorl_center - before_) * inverse_rate_;
+    const float t = along_segment((whorl_center - before_) * inverse_rate_);
+    if (is_further_on(t)) return false;
     const float roll_deg =
         rotation_deg_ + 360.f * static_cast<float>(in_whorl_++) / members + jitter_deg(placed_);
-    slot = {placed_++, along_segment(t), roll_deg, 1};
+    slot = {placed_++, on_step(t), roll_deg, 1};
     return true;
   }
   return false;
@@ -176,7 +183,7 @@ float ChildPlacer::jitter_deg(int index) const {
 /// |count| children from the tip, spread over the angle `rotate` in the plane of the stem.
 bool ChildPlacer::next_in_fan(ChildSite& site) {
   const int members = static_cast<int>(std::ceil(-count_));
-  if (!last_segment_ || placed_ >= members) return false;
+  if (segment_->z_end < 1 || placed_ >= members) return false;
   site.index = placed_;
   site.grown_fraction = std::min(1.f, -count_ - static_cast<float>(placed_));
   const float across = members > 1 ? static_cast<float>(placed_) / static_cast<float>(members - 1) - 0.5f : 0;

@@ -1,6 +1,7 @@
 // Where children sit on a stem and which way they point: stems and leaves alike [CH §3.2.1 Branch
 // Distribution, §3.2.2]. Metres and degrees.
 #pragma once
+#include <algorithm>
 #include <array>
 
 #include <espalier/weber_penn/scalar/child_spacing.h>
@@ -44,6 +45,7 @@ float leaf_count(const GrowingStem& stem, const WeberPennParameters& parameters)
 
 /// Places children segment by segment. The spread over segments is the error diffusion of [CH §3.2.1]:
 /// child i appears in the segment in which the running count passes i + 1, at the middle of its share.
+/// Segments are those of the stem's level; a stem that follows an axis is walked in parts of them.
 class ChildPlacer {
  public:
   enum class Bears { stems, leaves };
@@ -52,8 +54,8 @@ class ChildPlacer {
   /// Counts are those above, for the whole stem if it were no clone and did not split.
   ChildPlacer(const GrowingStem& stem, Bears bears, const WeberPennParameters& parameters);
 
-  /// Starts a segment, which must outlive its children, as must the stem; then next() yields them until it
-  /// returns false.
+  /// Starts a segment, or a part of one, which must outlive its children, as must the stem; then next()
+  /// yields them until it returns false.
   void begin(const GrowingStem& stem, const Segment& segment);
   bool next(ChildSite& site);
 
@@ -90,6 +92,9 @@ class ChildPlacer {
   bool site_at(const ChildSlot& slot, ChildSite& site) const;
   float along_segment(float share) const;
   void put_apart(ChildRun& run);
+  /// Whether a place on the whole segment lies beyond the step of it that has begun.
+  bool is_further_on(float t) const { return step_ + 1 < steps_ && t * steps_ >= step_ + 1; }
+  float on_step(float t) const { return std::clamp(t * steps_ - step_, 0.f, 1.f); }
   float next_rotation_deg();
   float jitter_deg(int index) const;
   float down_angle_deg(float offset_m, int index) const;
@@ -112,6 +117,7 @@ class ChildPlacer {
   int whorl_ = 0, in_whorl_ = 0;
   float rotation_deg_;
   bool last_segment_ = false;
+  int steps_ = 1, step_ = 0;  ///< of a segment, where the stem follows an axis
   std::array<float, kMostInRun + 8> rolls_deg_, places_;
 };
 

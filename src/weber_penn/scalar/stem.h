@@ -104,7 +104,7 @@ inline float place_above_base(const GrowingStem& stem, float offset_m,
 
 /// Of this stem: where it follows an axis, whole parts of those of its level, so fine that they follow it.
 inline int segment_count(const GrowingStem& stem, const WeberPennParameters& parameters) {
-  constexpr int kLeastOnAxis = 12;
+  constexpr int kLeastOnAxis = 16;
   const int segments = segment_count(parameters, stem.level);
   return stem.axis ? (kLeastOnAxis + segments - 1) / segments * segments : segments;
 }

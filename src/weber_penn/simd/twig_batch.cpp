@@ -19,17 +19,18 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// child_length_m of a child of a branch, and its radius before pruning [child_stem.h].
-void make_sizes(const WaitingChildren& children, const TwigBatchParents& parents, float radius_mod,
-                float ratio_power, std::size_t at, MadeStems& made) {
+void make_sizes(const WaitingChildren& children, const TwigBatchParents& parents,
+                const WeberPennParameters& p, int level, std::size_t at, MadeStems& made) {
   const Floats d;
   const Vector parent_m = hn::Load(d, &parents.length_m[at]);
   const Vector to_tip_m = hn::Sub(parent_m, hn::Mul(set(0.7f), hn::Load(d, &children.offset_m[at])));
   const Vector length_m =
       hn::Mul(hn::Load(d, &children.growth[at]), hn::Mul(hn::Load(d, &parents.child_max[at]), to_tip_m));
-  const Vector ratio = power(hn::Max(hn::Div(length_m, parent_m), set(1e-30f)), ratio_power);
-  const Vector scaled_m = hn::Mul(hn::Mul(set(radius_mod), hn::Load(d, &parents.radius_m[at])), ratio);
+  const Vector ratio = power(hn::Max(hn::Div(length_m, parent_m), set(1e-30f)), p.ratio_power);
+  const Vector scaled_m =
+      hn::Mul(hn::Mul(set(p.radius_mod[level_index(level)]), hn::Load(d, &parents.radius_m[at])), ratio);
   hn::Store(length_m, d, &made.length_m[at]);
-  hn::Store(hn::Min(hn::Load(d, &children.parent_radius_m[at]), hn::Max(set(kThinnestChildM), scaled_m)), d,
+  hn::Store(hn::Min(hn::Load(d, &children.parent_radius_m[at]), hn::Max(set(p.least_radius), scaled_m)), d,
             &made.radius_m[at]);
 }
 
@@ -50,8 +51,7 @@ void make_stems(const WeberPennParameters& p, int level, const TwigBatchParents&
   const auto count = static_cast<std::size_t>(children.count), lanes = hn::Lanes(Floats());
   for (std::size_t at = 0; at < count; at += lanes) make_frames(children, at);
   for (std::size_t at = 0; at < count; at += lanes) make_turns(children, at);
-  for (std::size_t at = 0; at < count; at += lanes)
-    make_sizes(children, parents, p.radius_mod[level_index(level)], p.ratio_power, at, made);
+  for (std::size_t at = 0; at < count; at += lanes) make_sizes(children, parents, p, level, at, made);
   for (std::size_t at = 0; at < count; at += lanes) make_turtles(children, at, made);
 }
 

@@ -1,4 +1,4 @@
-// The step of the (1+1) evolution strategies that refine and lay a branch follows the success rule
+// The step of the (1+1) evolution strategy that refines a branch follows the success rule
 // [Rechenberg: one success in five]: it grows by half with each success and shrinks by .92 with each failure,
 // inside of its limits. A model that decides by itself which candidates are better notes what it is asked to
 // grow; how far candidates lie from the branch they come from shows the step.
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <espalier/fitting/branches/branch_laying.h>
+#include <espalier/fitting/branches/branch_offsets.h>
 #include <espalier/fitting/branches/branch_refinement.h>
 #include <espalier/overrides/change_graph.h>
 
@@ -171,34 +171,6 @@ TEST(StepOfRefinement, GrowsWithEachSuccessToItsCeiling) {
 
 TEST(StepOfRefinement, StaysWhereACandidateIsAsGood) {
   Moves moves = moves_of_refinement(Outcome::equal, 0, 3);
-  expect_normal(moves);
-}
-
-Moves moves_of_laying(Outcome outcome, std::size_t count) {
-  constexpr std::size_t kFirst = 13;  // the branch itself, and twelve turns about its parent
-  Moves moves;
-  for (Seed seed = 0; seed < 250; ++seed) {
-    const WatchedModel model(outcome);
-    const FitTask task = watched_task(model);
-    RandomStream draws(root_key(seed));
-    LineInPicture line;
-    line.points = {{64, 125}, {64, outcome == Outcome::better ? 30.f : 95.f}};
-    line.width_px = 10;
-    BranchLayer(task, false).lay(line, {0, 0}, Solution{}, draws);
-    const Point at = outcome == Outcome::better ? model.asked[kFirst - 1].at : Point{};
-    add_moves(model.asked, kFirst, at, outcome, expected_steps(model.asked, kFirst, count, 0.2, outcome),
-              moves);
-  }
-  return moves;
-}
-
-TEST(StepOfLaying, ShrinksWithEachFailureToItsFloor) {
-  Moves moves = moves_of_laying(Outcome::worse, 45);
-  expect_normal(moves);
-}
-
-TEST(StepOfLaying, GrowsWithEachSuccessToItsCeiling) {
-  Moves moves = moves_of_laying(Outcome::better, 8);
   expect_normal(moves);
 }
 
