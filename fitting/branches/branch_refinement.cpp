@@ -235,7 +235,7 @@ class Refinement {
   void finish() {
     for (const Branch& branch : branches_) write_offsets(branch, solution_.overrides);
     std::erase_if(solution_.overrides.nodes, [](const OverrideNode& node) {
-      return node.set.overrides.empty() && node.set.shares.empty();
+      return node.set.empty();
     });
     Masks masks;
     drawer_.draw(solution_, nullptr, masks);

@@ -39,9 +39,8 @@ bool is_inherited(const Override& entry) {
   return !entry.is_private && entry.quantity != Quantity::seed && entry.quantity != Quantity::removed;
 }
 
-}  // namespace
-
-std::vector<Override> resolved_overrides(const OverrideSet& set, const Overrides& overrides) {
+/// The set, what it shares, what that shares, and so on.
+std::vector<const OverrideSet*> sharing_chain(const OverrideSet& set, const Overrides& overrides) {
   std::vector<const OverrideSet*> chain{&set};
   std::vector<std::string> names;
   while (!chain.back()->shares.empty()) {
@@ -51,10 +50,23 @@ std::vector<Override> resolved_overrides(const OverrideSet& set, const Overrides
     names.push_back(name);
     chain.push_back(&shared_set(name, overrides));
   }
+  return chain;
+}
+
+}  // namespace
+
+std::vector<Override> resolved_overrides(const OverrideSet& set, const Overrides& overrides) {
+  const std::vector<const OverrideSet*> chain = sharing_chain(set, overrides);
   OverrideSet result;
   for (auto each = chain.rbegin(); each != chain.rend(); ++each)
     for (const Override& entry : (*each)->overrides) set_override(result, entry);
   return result.overrides;
+}
+
+std::optional<BranchCrown> resolved_crown(const OverrideSet& set, const Overrides& overrides) {
+  for (const OverrideSet* each : sharing_chain(set, overrides))
+    if (each->crown) return each->crown;
+  return std::nullopt;
 }
 
 ChangeGraph::ChangeGraph(const Overrides& overrides) : nodes_(1) {
@@ -63,6 +75,7 @@ ChangeGraph::ChangeGraph(const Overrides& overrides) : nodes_(1) {
     const auto index = static_cast<std::size_t>(add_path(node.path));
     own.resize(nodes_.size());
     own[index] = resolved_overrides(node.set, overrides);
+    nodes_[index].crown = resolved_crown(node.set, overrides);
   }
   combine(0, -1, own);
 }
@@ -109,6 +122,12 @@ ChangeCursor ChangeCursor::child(std::uint32_t index) const {
   const auto found = std::lower_bound(node.children.begin(), node.children.end(), std::pair{index, -1});
   if (found != node.children.end() && found->first == index) below.node_ = found->second;
   return below;
+}
+
+const BranchCrown* ChangeCursor::crown() const {
+  if (node_ <= 0) return nullptr;
+  const std::optional<BranchCrown>& crown = graph_->nodes_[static_cast<std::size_t>(node_)].crown;
+  return crown ? &*crown : nullptr;
 }
 
 const BranchChange* ChangeCursor::change() const {

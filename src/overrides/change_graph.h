@@ -2,6 +2,7 @@
 // changes it by a step from its parent. A model carries a ChangeCursor in each growing stem, moves it with
 // child(), and applies change() where it computes the quantity. Immutable: threads may share it.
 #pragma once
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,8 @@ class ChangeCursor {
   ChangeCursor child(std::uint32_t index) const;
   /// What changes the stem here; null: nothing.
   const BranchChange* change() const;
+  /// The crown of this very stem; null: none.
+  const BranchCrown* crown() const;
   /// Whether branches below this stem are changed in any way.
   bool changes_below() const { return node_ >= 0 || inherits_ >= 0; }
 
@@ -41,6 +44,7 @@ class ChangeGraph {
     BranchChange change;     ///< of the branch itself
     BranchChange handed_on;  ///< of those below without a node of their own
     bool hands_on = false;   ///< whether handed_on changes anything
+    std::optional<BranchCrown> crown;
     std::vector<std::pair<std::uint32_t, std::int32_t>> children;  ///< by index
   };
 
@@ -52,5 +56,7 @@ class ChangeGraph {
 
 /// The overrides of `set`, those it shares first. Throws InputError as the graph does.
 std::vector<Override> resolved_overrides(const OverrideSet& set, const Overrides& overrides);
+/// Its crown, or that of the nearest set it shares. Throws InputError as the graph does.
+std::optional<BranchCrown> resolved_crown(const OverrideSet& set, const Overrides& overrides);
 
 }  // namespace espalier

@@ -5,10 +5,12 @@
 // returns, which paths that count from the base make likely [Boudon et al. 2003, §2.1, §4, Fig. 10].
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <espalier/overrides/branch_change.h>
+#include <espalier/overrides/branch_crown.h>
 #include <espalier/plant/branch_path.h>
 
 namespace espalier {
@@ -26,6 +28,9 @@ struct Override {
 struct OverrideSet {
   std::string shares;               ///< name of a shared set that comes first; empty: none
   std::vector<Override> overrides;  ///< by quantity, each once (set_override)
+  std::optional<BranchCrown> crown;
+
+  bool empty() const { return shares.empty() && overrides.empty() && !crown; }
 };
 
 struct OverrideNode {

@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -14,7 +16,7 @@ constexpr const char* kRelations[] = {"value", "factor", "offset"};  ///< in the
 
 std::vector<std::string> known_keys(bool in_branch) {
   std::vector<std::string> keys = quantity_names();
-  keys.emplace_back("shares");
+  keys.insert(keys.end(), {"shares", "crown"});
   if (in_branch) keys.emplace_back("path");
   return keys;
 }
@@ -46,8 +48,29 @@ Override read_override(const TomlSection& node, const std::string& key, Quantity
   return result;
 }
 
+/// crown = { radius = 0.4, radius_up = 0.1, shape = 2 }: "radius" is that of all sides that have none of
+/// their own.
+BranchCrown read_crown(const TomlSection& section) {
+  BranchCrown crown;
+  const std::vector<BranchCrownNumber> numbers = numbers_of(crown);
+  std::vector<std::string> known = names_of_several();
+  for (const BranchCrownNumber& each : numbers) known.push_back(each.name);
+  section.expect_only(known);
+  for (const BranchCrownNumber& each : numbers) {
+    const std::string of_several = each.name.substr(0, each.name.find('_'));
+    const std::string& key = section.has(each.name) ? each.name : of_several;
+    if (!section.has(key)) continue;
+    const double value = section.number(key);
+    if (!(value >= each.lower && value <= each.upper))
+      section.fail(key, fmt::format("a number from {:g} to {:g}", each.lower, each.upper));
+    *each.number = static_cast<float>(value);
+  }
+  return crown;
+}
+
 void read_set(const TomlSection& node, const BranchPath& path, OverrideSet& set) {
   if (node.has("shares")) set.shares = node.text("shares");
+  if (node.has("crown")) set.crown = read_crown(node.section("crown"));
   const std::vector<std::string> names = quantity_names();
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!node.has(names[i])) continue;
@@ -87,10 +110,18 @@ std::string override_to_toml(const Override& entry) {
                      entry.number, entry.is_private ? ", private = true" : "");
 }
 
+std::string crown_to_toml(BranchCrown crown) {
+  std::vector<std::string> numbers;
+  for (const BranchCrownNumber& each : numbers_of(crown))
+    numbers.push_back(fmt::format("{} = {}", each.name, *each.number));
+  return fmt::format("crown = {{ {} }}\n", fmt::join(numbers, ", "));
+}
+
 std::string set_to_toml(const OverrideSet& set) {
   std::string text;
   if (!set.shares.empty()) text += fmt::format("shares = {}\n", quote_toml(set.shares));
   for (const Override& entry : set.overrides) text += override_to_toml(entry);
+  if (set.crown) text += crown_to_toml(*set.crown);
   return text;
 }
 

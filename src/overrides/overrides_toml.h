@@ -4,6 +4,7 @@
 //   length = { factor = 1.2 }                        # inherited by the branches on it
 //   down_angle = { offset = -10, private = true }    # not inherited
 //   radius = 0.1                                     # a value that replaces the model's
+//   crown = { radius = 0.4, radius_up = 0.1 }        # a foliage pad, not inherited
 //   shares = "low"                                   # what [shared.low] says comes first
 #pragma once
 #include <string>

@@ -42,6 +42,11 @@ std::vector<std::string> inherited_by(const BranchPath& path, const Overrides& o
 std::string describe(const OverrideNode& node, const Overrides& overrides) {
   std::vector<std::string> texts;
   for (const Override& entry : node.set.overrides) texts.push_back(describe(entry));
+  if (node.set.crown) {
+    const std::array<float, 4>& radius = node.set.crown->radius;
+    texts.push_back(fmt::format("a crown of {:g} to the right, {:g} up, {:g} to the left, {:g} down",
+                                radius[0], radius[1], radius[2], radius[3]));
+  }
   if (!node.set.shares.empty()) texts.push_back(fmt::format("shares {}", node.set.shares));
   std::string text = fmt::format("{}", fmt::join(texts, ", "));
   const std::vector<std::string> inherited = inherited_by(node.path, overrides);
