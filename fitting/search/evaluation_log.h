@@ -21,8 +21,8 @@ struct LoggedEvaluation {
   bool operator==(const LoggedEvaluation&) const = default;
 };
 
-/// FNV-1a over the bits of the values that say something of the plant (rows_in_use): curves that change nothing
-/// are not told apart from none.
+/// FNV-1a over the bits of the values that say something of the plant (rows_in_use): curves that change
+/// nothing are not told apart from none.
 std::uint32_t hash_values(const ParameterTable& table, const ParameterValues& values);
 
 /// What a log holds, without its torn tail. The file is only read, also while a run writes it. Throws

@@ -117,6 +117,13 @@ void check_quantities(const OverrideNode& node, const Preset& preset, const Mode
                         to_string(node.path), preset.model);
 }
 
+void check_crown(const OverrideNode& node, const Preset& preset, const Model& model,
+                 const toml::table& document, const PresetSource& source) {
+  if (resolved_crown(node.set, preset.overrides) && !model.has_branch_crowns())
+    throw_input_error("{}: crown: got one for branch {}, expected none: model '{}' has no crowns of branches",
+                      place_of(node.path, document, source), to_string(node.path), preset.model);
+}
+
 /// Throws for paths that no plant of these values can have; those of too few children are dormant.
 void check_branches(const Preset& preset, const Model& model, const toml::table& document,
                     const PresetSource& source) {
@@ -124,6 +131,7 @@ void check_branches(const Preset& preset, const Model& model, const toml::table&
   const BranchLimits limits = model.branch_limits(preset.values);
   for (const OverrideNode& node : preset.overrides.nodes) {
     check_quantities(node, preset, model, document, source);
+    check_crown(node, preset, model, document, source);
     const auto levels = std::count_if(node.path.begin(), node.path.end(),
                                       [](std::uint32_t part) { return part < kFirstSplit; });
     if (levels > limits.levels)

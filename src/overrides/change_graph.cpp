@@ -39,12 +39,8 @@ bool is_inherited(const Override& entry) {
   return !entry.is_private && entry.quantity != Quantity::seed && entry.quantity != Quantity::removed;
 }
 
-}  // namespace
-
-namespace {
-
-/// The set and those it shares, the nearest first.
-std::vector<const OverrideSet*> chain_of(const OverrideSet& set, const Overrides& overrides) {
+/// The set, what it shares, what that shares, and so on.
+std::vector<const OverrideSet*> sharing_chain(const OverrideSet& set, const Overrides& overrides) {
   std::vector<const OverrideSet*> chain{&set};
   std::vector<std::string> names;
   while (!chain.back()->shares.empty()) {
@@ -60,7 +56,7 @@ std::vector<const OverrideSet*> chain_of(const OverrideSet& set, const Overrides
 }  // namespace
 
 std::vector<Override> resolved_overrides(const OverrideSet& set, const Overrides& overrides) {
-  const std::vector<const OverrideSet*> chain = chain_of(set, overrides);
+  const std::vector<const OverrideSet*> chain = sharing_chain(set, overrides);
   OverrideSet result;
   for (auto each = chain.rbegin(); each != chain.rend(); ++each)
     for (const Override& entry : (*each)->overrides) set_override(result, entry);
@@ -68,9 +64,15 @@ std::vector<Override> resolved_overrides(const OverrideSet& set, const Overrides
 }
 
 const DrawnAxis* resolved_axis(const OverrideSet& set, const Overrides& overrides) {
-  for (const OverrideSet* each : chain_of(set, overrides))
+  for (const OverrideSet* each : sharing_chain(set, overrides))
     if (each->axis) return &*each->axis;
   return nullptr;
+}
+
+std::optional<BranchCrown> resolved_crown(const OverrideSet& set, const Overrides& overrides) {
+  for (const OverrideSet* each : sharing_chain(set, overrides))
+    if (each->crown) return each->crown;
+  return std::nullopt;
 }
 
 ChangeGraph::ChangeGraph(const Overrides& overrides) : nodes_(1) {
@@ -81,6 +83,7 @@ ChangeGraph::ChangeGraph(const Overrides& overrides) : nodes_(1) {
     own[index] = resolved_overrides(node.set, overrides);
     if (const DrawnAxis* axis = resolved_axis(node.set, overrides))
       nodes_[index].axis = StemAxis{make_axis(axis->points), axis->frame};
+    nodes_[index].crown = resolved_crown(node.set, overrides);
   }
   combine(0, -1, own);
 }
@@ -138,6 +141,12 @@ const StemAxis* ChangeCursor::axis() const {
 
 const BranchChange* ChangeCursor::own_change() const {
   return node_ > 0 ? &graph_->nodes_[static_cast<std::size_t>(node_)].own : nullptr;
+}
+
+const BranchCrown* ChangeCursor::crown() const {
+  if (node_ <= 0) return nullptr;
+  const std::optional<BranchCrown>& crown = graph_->nodes_[static_cast<std::size_t>(node_)].crown;
+  return crown ? &*crown : nullptr;
 }
 
 const BranchChange* ChangeCursor::change() const {

@@ -25,6 +25,8 @@ class ChangeCursor {
   /// What the stem's own node says, without what it inherits: of a stem that splits off another, which has
   /// followed all that already. Null: nothing.
   const BranchChange* own_change() const;
+  /// The crown of this very stem; null: none.
+  const BranchCrown* crown() const;
   /// Whether branches below this stem are changed in any way.
   bool changes_below() const { return node_ >= 0 || inherits_ >= 0; }
 
@@ -49,6 +51,7 @@ class ChangeGraph {
     BranchChange handed_on;  ///< of those below without a node of their own
     bool hands_on = false;   ///< whether handed_on changes anything
     std::optional<StemAxis> axis;
+    std::optional<BranchCrown> crown;
     std::vector<std::pair<std::uint32_t, std::int32_t>> children;  ///< by index
   };
 
@@ -62,5 +65,7 @@ class ChangeGraph {
 std::vector<Override> resolved_overrides(const OverrideSet& set, const Overrides& overrides);
 /// Its axis, or that of the nearest set it shares; null: none. Throws InputError as the graph does.
 const DrawnAxis* resolved_axis(const OverrideSet& set, const Overrides& overrides);
+/// Its crown, or that of the nearest set it shares. Throws InputError as the graph does.
+std::optional<BranchCrown> resolved_crown(const OverrideSet& set, const Overrides& overrides);
 
 }  // namespace espalier

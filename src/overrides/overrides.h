@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <espalier/overrides/branch_change.h>
+#include <espalier/overrides/branch_crown.h>
 #include <espalier/overrides/drawn_axis.h>
 #include <espalier/plant/branch_path.h>
 
@@ -29,8 +30,9 @@ struct OverrideSet {
   std::string shares;               ///< name of a shared set that comes first; empty: none
   std::vector<Override> overrides;  ///< by quantity, each once (set_override)
   std::optional<DrawnAxis> axis;
+  std::optional<BranchCrown> crown;
 
-  bool empty() const { return shares.empty() && overrides.empty() && !axis; }
+  bool empty() const { return shares.empty() && overrides.empty() && !axis && !crown; }
 };
 
 struct OverrideNode {

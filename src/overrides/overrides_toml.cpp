@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -15,7 +17,7 @@ constexpr const char* kRelations[] = {"value", "factor", "offset"};  ///< in the
 
 std::vector<std::string> known_keys(bool in_branch) {
   std::vector<std::string> keys = quantity_names();
-  keys.insert(keys.end(), {"shares", "axis", "axis_frame"});
+  keys.insert(keys.end(), {"shares", "axis", "axis_frame", "crown"});
   if (in_branch) keys.emplace_back("path");
   return keys;
 }
@@ -82,9 +84,30 @@ void read_axis(const TomlSection& node, OverrideSet& set) {
   set.axis->frame = static_cast<AxisFrame>(frame - std::begin(kAxisFrames));
 }
 
+/// crown = { radius = 0.4, radius_up = 0.1, shape = 2 }: "radius" is that of all sides that have none of
+/// their own.
+BranchCrown read_crown(const TomlSection& section) {
+  BranchCrown crown;
+  const std::vector<BranchCrownNumber> numbers = numbers_of(crown);
+  std::vector<std::string> known = names_of_several();
+  for (const BranchCrownNumber& each : numbers) known.push_back(each.name);
+  section.expect_only(known);
+  for (const BranchCrownNumber& each : numbers) {
+    const std::string of_several = each.name.substr(0, each.name.find('_'));
+    const std::string& key = section.has(each.name) ? each.name : of_several;
+    if (!section.has(key)) continue;
+    const double value = section.number(key);
+    if (!(value >= each.lower && value <= each.upper))
+      section.fail(key, fmt::format("a number from {:g} to {:g}", each.lower, each.upper));
+    *each.number = static_cast<float>(value);
+  }
+  return crown;
+}
+
 void read_set(const TomlSection& node, const BranchPath& path, OverrideSet& set) {
   if (node.has("shares")) set.shares = node.text("shares");
   read_axis(node, set);
+  if (node.has("crown")) set.crown = read_crown(node.section("crown"));
   const std::vector<std::string> names = quantity_names();
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!node.has(names[i])) continue;
@@ -132,11 +155,19 @@ std::string axis_to_toml(const DrawnAxis& axis) {
   return fmt::format("axis = [{}]\n{}", text, in_world ? "axis_frame = \"world\"\n" : "");
 }
 
+std::string crown_to_toml(BranchCrown crown) {
+  std::vector<std::string> numbers;
+  for (const BranchCrownNumber& each : numbers_of(crown))
+    numbers.push_back(fmt::format("{} = {}", each.name, *each.number));
+  return fmt::format("crown = {{ {} }}\n", fmt::join(numbers, ", "));
+}
+
 std::string set_to_toml(const OverrideSet& set) {
   std::string text;
   if (!set.shares.empty()) text += fmt::format("shares = {}\n", quote_toml(set.shares));
   for (const Override& entry : set.overrides) text += override_to_toml(entry);
   if (set.axis) text += axis_to_toml(*set.axis);
+  if (set.crown) text += crown_to_toml(*set.crown);
   return text;
 }
 

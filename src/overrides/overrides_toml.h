@@ -6,6 +6,7 @@
 //   radius = 0.1                                     # a value that replaces the model's
 //   axis = [[0, 0, 0.3], [0.1, 0, 0.6], [0.3, 0, 0.8]]   # the curve it follows, not inherited
 //   axis_frame = "world"                             # or "parent", which is the default
+//   crown = { radius = 0.4, radius_up = 0.1 }        # a foliage pad, not inherited
 //   shares = "low"                                   # what [shared.low] says comes first
 #pragma once
 #include <string>

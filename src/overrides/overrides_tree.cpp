@@ -45,6 +45,11 @@ std::string describe(const OverrideNode& node, const Overrides& overrides) {
   if (node.set.axis)
     texts.push_back(fmt::format("axis of {} points in the frame of the {}", node.set.axis->points.size(),
                                 kAxisFrames[static_cast<std::size_t>(node.set.axis->frame)]));
+  if (node.set.crown) {
+    const std::array<float, 4>& radius = node.set.crown->radius;
+    texts.push_back(fmt::format("a crown of {:g} to the right, {:g} up, {:g} to the left, {:g} down",
+                                radius[0], radius[1], radius[2], radius[3]));
+  }
   if (!node.set.shares.empty()) texts.push_back(fmt::format("shares {}", node.set.shares));
   std::string text = fmt::format("{}", fmt::join(texts, ", "));
   const std::vector<std::string> inherited = inherited_by(node.path, overrides);

@@ -77,6 +77,8 @@ class Model {
   virtual bool has_branch_paths() const { return false; }
   /// Whether a change of this quantity has an effect: some models change branches only after they have grown.
   virtual bool can_change(Quantity) const { return has_branch_paths(); }
+  /// Whether crowns of single branches give the stems on them their lengths.
+  virtual bool has_branch_crowns() const { return false; }
   /// Whether the model follows `train`: it can grow into a volume.
   virtual bool can_train() const { return false; }
   virtual BranchLimits branch_limits(std::span<const double> values) const {

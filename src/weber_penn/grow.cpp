@@ -26,11 +26,18 @@ namespace espalier {
 
 namespace {
 
+/// The crown of a branch, which holds all that grows on it.
+struct Pad {
+  PlacedCrown crown;
+  int level;  ///< of the branch
+};
+
 /// What a thread keeps from one plant to the next: memory only, nothing of the plant.
 struct GrowthMemory {
   std::vector<GrowingStem> level, next_level;  ///< queues
   StemBatch stem_batch;
   ChildBatchMemory leaves, twigs;
+  std::vector<Pad> pads;
 };
 
 /// Which children a stem bears, and whether vectors place them.
@@ -65,7 +72,9 @@ class Growth {
         leaf_batch_(p, memory.leaves, plant.leaves, cuts_leaves(settings) ? nullptr : settings.leaf_sink),
         twig_batch_(p, settings, memory.twigs, memory.next_level),
         level_(memory.level),
-        next_level_(memory.next_level) {
+        next_level_(memory.next_level),
+        pads_(memory.pads) {
+    pads_.clear();
     level_.clear();
     next_level_.clear();
   }
@@ -99,7 +108,10 @@ class Growth {
   void grow_child(const GrowingStem& parent, std::int32_t parent_index, const ChildSite& site);
   float child_length_m(const GrowingStem& parent, const ChildSite& site) const;
   float shaped_length_m(const GrowingStem& parent, const ChildSite& site) const;
+  const PlacedCrown* length_giver(const GrowingStem& parent) const;
+  void place_pad(GrowingStem& stem);
   bool prune(GrowingStem& stem) const;
+  bool prune(GrowingStem& stem, const Volume* volume) const;
   double over_budget_factor() const;
 
   const WeberPennParameters& p_;
@@ -111,6 +123,7 @@ class Growth {
   LeafBatch leaf_batch_;
   TwigBatch twig_batch_;
   std::vector<GrowingStem>&level_, &next_level_;
+  std::vector<Pad>& pads_;
 };
 
 /// Adds the knots of one stem, its leaves and its queued children while the stem is walked.
@@ -185,7 +198,8 @@ Offspring Growth::offspring(const GrowingStem& stem) {
   if (settings_.only_part && settings_.only_part->alone && is_shown(stem)) return {};
   const bool are_changed = stem.cursor.changes_below() || !is_shown(stem);
   const bool are_trained = settings_.train && settings_.prune_to;
-  const bool in_batches = uses_vectors_ && !are_changed && !are_trained && TwigBatch::supports(stem, p_);
+  const bool in_batches =
+      uses_vectors_ && !are_changed && !are_trained && stem.pad < 0 && TwigBatch::supports(stem, p_);
   return {.stems = true, .are_changed = are_changed, .batch = in_batches ? &twig_batch_ : nullptr};
 }
 
@@ -277,12 +291,13 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
   child.cursor = site.cursor;
   child.axis = child.cursor.axis();
   child.extra_curve = extra_curve(change, level, p_);
+  child.pad = parent.pad;
   child.tree = parent.tree;
   child.turtle = site.turtle;
   child.offset_m = site.offset_m;
   child.parent_length_m = parent.length_m;
   child.parent_child_max = parent.child_max;
-  const CrownEnvelope* crown = crown_.gives_lengths(level);
+  const PlacedCrown* crown = length_giver(parent);
   const auto length_m = [&] {
     const float own_m = crown ? length_to_crown_m(child, *crown, p_) : child_length_m(parent, site);
     return changed(change, Quantity::length, site.grown_fraction * own_m);
@@ -299,19 +314,48 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
   if (!prune(child)) return;
   child.radius_m = changed(change, Quantity::radius, radius_m(child.length_m));
   child.child_max = drawn_child_max(child, p_);
+  place_pad(child);
   twig_batch_.flush();  // what waits comes before
   next_level_.push_back(child);
+}
+
+/// The envelope on which the tips of the stem's children lie; nullptr where there is none. That of a branch
+/// holds for the stems on it alone.
+const PlacedCrown* Growth::length_giver(const GrowingStem& parent) const {
+  if (parent.pad < 0) return crown_.gives_lengths(parent.level + 1);
+  const Pad& pad = pads_[static_cast<std::size_t>(parent.pad)];
+  return pad.level == parent.level ? &pad.crown : nullptr;
+}
+
+/// Where the stem has a crown of its own, that begins here, from its base to its tip [Boudon et al. 2003,
+/// §3].
+void Growth::place_pad(GrowingStem& stem) {
+  const BranchCrown* crown = stem.cursor.crown();
+  if (crown == nullptr) return;
+  const Vec3 tip = tip_m(stem, p_);
+  if (length(tip - stem.turtle.position_m) < kShortestStemM) return;
+  stem.pad = static_cast<std::int32_t>(pads_.size());
+  pads_.push_back({PlacedCrown(*crown, stem.turtle, tip), stem.level});
 }
 
 /// False where nothing is left of the stem. One that follows an axis stays where that is drawn: it is not
 /// trained to grow elsewhere.
 bool Growth::prune(GrowingStem& stem) const {
   const bool is_to_crown = settings_.prune_to && settings_.prune_to == crown_.of_twigs();
+  if (stem.pad >= 0) {
+    const Pad& pad = pads_[static_cast<std::size_t>(stem.pad)];
+    if (stem.level > pad.level + 1 && !prune(stem, &pad.crown)) return false;
+    return settings_.prune_to == nullptr || is_to_crown || prune(stem, settings_.prune_to);
+  }
   const Volume* volume = is_to_crown ? crown_.volume(stem.level) : settings_.prune_to;
+  return (volume == nullptr && is_to_crown) || prune(stem, volume);
+}
+
+bool Growth::prune(GrowingStem& stem, const Volume* volume) const {
   if (volume && settings_.train && stem.axis) return stem.length_m >= kShortestStemM;
   if (volume && settings_.train)
     train_stem(stem, p_, *volume);
-  else if (volume || !is_to_crown)
+  else
     stem.length_m = pruned_length_m(stem, p_, volume);
   return stem.length_m >= kShortestStemM;
 }
@@ -368,6 +412,7 @@ GrowthResult Growth::run(Seed seed) {
     trunk.radius_m =
         changed(trunk.cursor.change(), Quantity::radius, trunk.length_m * p_.ratio * p_.radius_mod[0]);
     trunk.child_max = drawn_child_max(trunk, p_);
+    if (trunk.length_m >= kShortestStemM) place_pad(trunk);
   }
   std::erase_if(level_, [](const GrowingStem& trunk) { return trunk.length_m < kShortestStemM; });
   for (int level = 0; level < p_.level_count() && !level_.empty(); ++level) {

@@ -20,6 +20,7 @@ class WeberPennModel : public Model {
   }
 
   bool has_branch_paths() const override { return true; }
+  bool has_branch_crowns() const override { return true; }
   bool can_train() const override { return true; }
 
   std::vector<std::string> palm_presets() const override { return {"palm", "fan_palm"}; }

@@ -11,7 +11,7 @@ namespace {
 /// Of the tips of a stem and its clones, how long the stem is where the first one meets the envelope.
 class TipWalk : public StemVisitor {
  public:
-  TipWalk(const GrowingStem& stem, const CrownEnvelope& crown, const WeberPennParameters& p)
+  TipWalk(const GrowingStem& stem, const PlacedCrown& crown, const WeberPennParameters& p)
       : stem_(stem), crown_(crown), p_(p) {}
 
   bool segment(const GrowingStem&, const Segment& segment) override {
@@ -29,9 +29,20 @@ class TipWalk : public StemVisitor {
 
  private:
   const GrowingStem& stem_;
-  const CrownEnvelope& crown_;
+  const PlacedCrown& crown_;
   const WeberPennParameters& p_;
   float length_m_ = INFINITY;
+};
+
+class OwnTip : public StemVisitor {
+ public:
+  bool segment(const GrowingStem&, const Segment& segment) override {
+    tip_m = segment.end_m;
+    return true;
+  }
+  void split(const GrowingStem&) override {}
+
+  Vec3 tip_m;
 };
 
 /// Of an apex that lies as many radii of its side away.
@@ -59,7 +70,7 @@ CrownShape crown_shape(const WeberPennParameters& p, float tree_scale_m) {
   return crown;
 }
 
-float length_to_crown_m(const GrowingStem& stem, const CrownEnvelope& crown, const WeberPennParameters& p) {
+float length_to_crown_m(const GrowingStem& stem, const PlacedCrown& crown, const WeberPennParameters& p) {
   GrowingStem measured = stem;
   measured.length_m = 1;
   TipWalk tips(measured, crown, p);
@@ -67,11 +78,17 @@ float length_to_crown_m(const GrowingStem& stem, const CrownEnvelope& crown, con
   return tips.length_m();
 }
 
+Vec3 tip_m(const GrowingStem& stem, const WeberPennParameters& p) {
+  OwnTip tip;
+  walk_stem(stem, p, tip);
+  return tip.tip_m;
+}
+
 TreeCrown::TreeCrown(const WeberPennParameters& p, float tree_scale_m) {
   if (p.crown_use == 0 || !(tree_scale_m > 0)) return;
   use_ = static_cast<CrownUse>(p.crown_use);
   crown_.emplace(crown_shape(p, tree_scale_m));
-  trunk_room_.emplace(*crown_);
+  trunk_room_.emplace(crown_->envelope());
 }
 
 const Volume* TreeCrown::volume(int level) const {
@@ -80,7 +97,7 @@ const Volume* TreeCrown::volume(int level) const {
   return level == 0 ? static_cast<const Volume*>(&*trunk_room_) : &*crown_;
 }
 
-const CrownEnvelope* TreeCrown::gives_lengths(int level) const {
+const PlacedCrown* TreeCrown::gives_lengths(int level) const {
   return use_ == CrownUse::length && level == 1 ? &*crown_ : nullptr;
 }
 

@@ -3,8 +3,7 @@
 #pragma once
 #include <optional>
 
-#include <espalier/environment/crown_envelope.h>
-#include <espalier/weber_penn/scalar/stem.h>
+#include <espalier/weber_penn/placed_crown.h>
 
 namespace espalier {
 
@@ -18,8 +17,11 @@ CrownShape crown_shape(const WeberPennParameters& parameters, float tree_scale_m
 /// is how far the envelope reaches from its base in the direction of its tip, over how far its tip is away
 /// per length. Where it splits, the first tip that meets the envelope counts. 0 where the envelope is not
 /// reached; at most four times as long as the envelope reaches, however much it curls.
-float length_to_crown_m(const GrowingStem& stem, const CrownEnvelope& crown,
+float length_to_crown_m(const GrowingStem& stem, const PlacedCrown& crown,
                         const WeberPennParameters& parameters);
+
+/// Where the tip of the stem is, but for its clones.
+Vec3 tip_m(const GrowingStem& stem, const WeberPennParameters& parameters);
 
 /// Nothing where crown_use is off, or the tree has no size.
 class TreeCrown {
@@ -32,7 +34,7 @@ class TreeCrown {
   /// That of all deeper levels.
   const Volume* of_twigs() const { return volume(2); }
   /// The envelope that gives stems of this level their lengths; nullptr where none does.
-  const CrownEnvelope* gives_lengths(int level) const;
+  const PlacedCrown* gives_lengths(int level) const;
   bool trains() const { return use_ == CrownUse::train; }
 
  private:
@@ -48,7 +50,7 @@ class TreeCrown {
   };
 
   CrownUse use_ = CrownUse::off;
-  std::optional<CrownEnvelope> crown_;
+  std::optional<PlacedCrown> crown_;
   std::optional<TrunkRoom> trunk_room_;
 };
 

@@ -126,5 +126,23 @@ RC_GTEST_PROP(ChangeGraph, AnInheritedValueIsThatOfTheFirstPublicNodeAbove, ()) 
   RC_ASSERT(changed_at(overrides, path, kLength, 77) == expected);
 }
 
+TEST(ChangeGraph, ACrownIsOfItsBranchAloneAndMayBeShared) {
+  Overrides overrides;
+  overrides.shared["pad"].crown = BranchCrown{.shape_tip = 3};
+  overrides.shared["low"].shares = "pad";
+  overrides.at({0, 3}).set.shares = "low";
+  overrides.at({0, 4}).set.shares = "low";
+  overrides.at({0, 4}).set.crown = BranchCrown{.shape_tip = 4};
+  const ChangeGraph graph(overrides);
+  const ChangeCursor trunk = ChangeCursor(&graph).child(0);
+  ASSERT_TRUE(trunk.child(3).crown());
+  EXPECT_EQ(trunk.child(3).crown()->shape_tip, 3);
+  EXPECT_EQ(trunk.child(4).crown()->shape_tip, 4);
+  EXPECT_FALSE(trunk.crown());
+  EXPECT_FALSE(trunk.child(3).child(0).crown());
+  EXPECT_FALSE(trunk.child(5).crown());
+  EXPECT_FALSE(ChangeCursor().crown());
+}
+
 }  // namespace
 }  // namespace espalier

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cmath>
+
 #include <espalier/core/error.h>
 #include <espalier/overrides/overrides_toml.h>
 #include <espalier/overrides/overrides_tree.h>
@@ -26,7 +28,7 @@ Override any_override() {
 }
 
 bool same(const OverrideSet& a, const OverrideSet& b) {
-  return a.shares == b.shares &&
+  return a.shares == b.shares && a.crown == b.crown &&
          std::is_permutation(a.overrides.begin(), a.overrides.end(), b.overrides.begin(), b.overrides.end(),
                              [](const Override& x, const Override& y) {
                                const bool private_alike =
@@ -42,6 +44,10 @@ RC_GTEST_PROP(OverridesToml, ReadsBackTheSameBits, ()) {
   for (int i = 0; i < nodes; ++i) {
     OverrideSet& set = overrides.at({0, static_cast<std::uint32_t>(*rc::gen::inRange(0, 50))}).set;
     for (int k = *rc::gen::inRange(0, 4); k > 0; --k) set_override(set, any_override());
+    if (*rc::gen::arbitrary<bool>())
+      for (const BranchCrownNumber& each : numbers_of(set.crown.emplace()))
+        *each.number =
+            std::lerp(each.lower, each.upper, static_cast<float>(*rc::gen::inRange(0, 1001)) / 1000);
   }
   overrides.shared["a b"].overrides = {{Quantity::length, Relation::factor, 1.25, false}};
   const Overrides back = read(overrides_to_toml(overrides));
@@ -58,6 +64,15 @@ TEST(OverridesToml, NodesStandInTheOrderOfTheirPaths) {
       read("[[branch]]\npath = \"0/7\"\nlength = 1\n[[branch]]\npath = \"0/3\"\nlength = 1\n");
   ASSERT_EQ(overrides.nodes.size(), 2u);
   EXPECT_EQ(to_string(overrides.nodes[0].path), "0/3");
+}
+
+TEST(OverridesToml, NumbersOfACrownThatNameNoSideAreThoseOfAllSides) {
+  const Overrides overrides = read(
+      "[[branch]]\npath = \"0/7\"\ncrown = { radius_up = 0.1, radius = 0.4, rim_down = 1, shape = 3, "
+      "shape_tip = 1.5 }\n");
+  const BranchCrown expected{
+      .radius = {0.4f, 0.1f, 0.4f, 0.4f}, .rim = {0.5f, 0.5f, 0.5f, 1}, .shape_tip = 1.5f, .shape_base = 3};
+  EXPECT_EQ(overrides.nodes.at(0).set.crown, expected);
 }
 
 struct BadText {
@@ -95,6 +110,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"HalfSeed", "[[branch]]\npath = \"0\"\nseed = 1.5\n", "whole number"},
         BadText{"TrunkPosition", "[[branch]]\npath = \"0\"\nposition = 0.5\n", "has a parent"},
         BadText{"PositionBeyond", "[[branch]]\npath = \"0/1\"\nposition = 1.5\n", "from 0 to 1"},
+        BadText{"CrownOfUnknownNumber", "[[branch]]\npath = \"0\"\ncrown = { radius_top = 1 }\n", "radius_"},
+        BadText{"CrownOfNegativeRadius", "[[branch]]\npath = \"0\"\ncrown = { radius = -1 }\n",
+                "key 'radius': got -1, expected a number from 0.001 to 10"},
+        BadText{"CrownOfNoRadius", "[[branch]]\npath = \"0\"\ncrown = { radius_up = nan }\n", "got nan"},
+        BadText{"CrownWhoseRimIsBeyondItsTip", "[[branch]]\npath = \"0\"\ncrown = { rim_left = 1.2 }\n",
+                "from 0 to 1"},
+        BadText{"CrownOfNoShape", "[[branch]]\npath = \"0\"\ncrown = { shape = 0 }\n", "from 0.1 to 100"},
+        BadText{"CrownThatIsANumber", "[[branch]]\npath = \"0\"\ncrown = 1\n", "crown"},
         BadText{"UnknownShare", "[[branch]]\npath = \"0\"\nshares = \"x\"\n", "'x'"},
         BadText{"Cycle",
                 "[shared.a]\nshares = \"b\"\n[shared.b]\nshares = \"a\"\n[[branch]]\npath = \"0\"\nshares = "
@@ -107,6 +130,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"SetThatSharesAnUnknownOne", "[shared.a]\nshares = \"x\"\n", "'x'"},
         BadText{"BranchIsNoArray", "branch = 3\n", "branch"}),
     [](const auto& info) { return info.param.name; });
+
+TEST(OverridesTree, ShowsCrowns) {
+  const Overrides overrides = read("[[branch]]\npath = \"0/3\"\ncrown = { radius = 0.4, radius_up = 0.1 }\n");
+  EXPECT_EQ(overrides_tree(
+                overrides, [](const BranchPath&) { return true; }, "# "),
+            "#   0/3: a crown of 0.4 to the right, 0.1 up, 0.4 to the left, 0.4 down\n");
+}
 
 TEST(OverridesTree, ShowsDepthInheritanceAndDormantNodes) {
   const Overrides overrides = read(

@@ -8,6 +8,7 @@
 #include <espalier/app/commands/commands.h>
 #include <espalier/app/options/target_options.h>
 #include <espalier/app/options/view_options.h>
+#include <espalier/fitting/picture/crown_reading.h>
 #include <espalier/fitting/picture/picture_reading.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/image/reading/label_picture.h>
@@ -51,6 +52,9 @@ void run_target(const TargetPaths& paths, const TargetOptions& options) {
   PictureReading reading = read_picture(target.mask);
   reading.kind = kind_with_labels(reading.kind, target.labels);
   fmt::print("{}: {}\n", paths.output, reading_in_words(reading));
+  if (reading.kind == TreeKind::leafy)
+    fmt::print("{}: its crown, were it 10 m tall: {}\n", paths.output,
+               crown_text(read_crown(target.mask, reading), 10));
   fmt::print("{}: {}\n", paths.image, target.labels.how);
 }
 

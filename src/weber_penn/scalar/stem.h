@@ -68,6 +68,7 @@ struct GrowingStem {
   ChangeCursor cursor;             ///< its overrides
   const StemAxis* axis = nullptr;  ///< it follows; null: it bends as the parameters say
   ExtraCurve extra_curve;          ///< by an override, or by training
+  std::int32_t pad = -1;           ///< the crown of a branch that it grows in, by number; -1: none
   Tree tree;
   StemTurtle turtle;    ///< at the start of the stem (for a clone: at the split)
   float length_m = 0;   ///< of the whole stem, also for a clone that starts midway
