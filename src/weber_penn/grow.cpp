@@ -14,13 +14,13 @@
 #include <espalier/weber_penn/scalar/leaf_placement.h>
 #include <espalier/weber_penn/scalar/pruning.h>
 #include <espalier/weber_penn/scalar/stem_knots.h>
-#include <espalier/weber_penn/scalar/trunks.h>
 #include <espalier/weber_penn/simd/curve_knots.h>
 #include <espalier/weber_penn/simd/leaf_batch.h>
 #include <espalier/weber_penn/simd/stem_batch.h>
 #include <espalier/weber_penn/simd/twig_batch.h>
 #include <espalier/weber_penn/table/shape_ratio.h>
 #include <espalier/weber_penn/tree_crown.h>
+#include <espalier/weber_penn/trunks.h>
 
 namespace espalier {
 

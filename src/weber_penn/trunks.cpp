@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <espalier/weber_penn/scalar/trunks.h>
+#include <espalier/weber_penn/trunks.h>
 
 namespace espalier {
 
