@@ -24,9 +24,9 @@ bool matches(std::string_view pattern, std::string_view text) {
 
 /// The end of the name must be spelt, so that patterns do not reach into curves by chance.
 bool names_curve(const std::string& pattern, const ParameterInfo& row) {
-  const std::string full_name = row.full_name();
-  return pattern.find(row.name.substr(row.name.rfind('_'))) != std::string::npos &&
-         (matches(pattern, full_name) || matches(pattern, full_name.substr(0, full_name.rfind('.'))));
+  if (pattern.find(row.name.substr(row.name.rfind('_'))) == std::string::npos) return false;
+  const std::string number = row.full_name(), curve = number.substr(0, number.rfind('.'));
+  return matches(pattern, row.name) || matches(pattern, curve) || matches(pattern, number);
 }
 
 bool names_row(const std::string& pattern, const ParameterInfo& row) {

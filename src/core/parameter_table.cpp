@@ -66,7 +66,9 @@ std::size_t ParameterTable::index_of(std::string_view full_name) const {
   if (const auto index = find(full_name)) return *index;
   if (rows.empty()) throw_input_error("got '{}', expected none: {} has no parameters", full_name, model);
   std::vector<std::string> known;
-  for (const ParameterInfo& row : rows) known.push_back(row.full_name());
+  for (const ParameterInfo& row : rows)
+    if (row.point < 0) known.push_back(row.full_name());
+  for (const CurveInfo& curve : curves) known.push_back(curve.full_name());
   throw_input_error("unknown parameter '{}' of model {}, closest is '{}'", full_name, model,
                     closest_name(full_name, known));
 }

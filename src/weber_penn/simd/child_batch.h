@@ -23,6 +23,7 @@ class ChildBatch {
   ChildBatch(ChildPlacer::Bears bears, const WeberPennParameters& parameters, ChildBatchMemory& memory)
       : p_(parameters), bears_(bears), memory_(memory) {
     memory_.rolls.clear();
+    memory_.spread.clear();
   }
   virtual ~ChildBatch() = default;
   ChildBatch(const ChildBatch&) = delete;

@@ -50,15 +50,22 @@ float ChildSpread::pass(int segments, const Rate& rate) {
   return reached;
 }
 
+void ChildSpread::share_parts(int level, const ChildSpacing& spacing, int segments) {
+  if (!parts_.empty() && level == level_) return;
+  level_ = level;
+  parts_.clear();
+  parts_.reserve(static_cast<std::size_t>(segments));
+  for (int i = 0; i < segments; ++i) parts_.push_back(spacing.part_of(i, segments));
+}
+
 /// Works out where each child is, also one that is not whole.
-void ChildSpread::put_apart(float count, const ChildSpacing& spacing, int segments) {
+void ChildSpread::put_apart(float count, const ChildSpacing& spacing) {
   places_.resize(static_cast<std::size_t>(end_) + kReadBeyond);
   int child = 0;
-  for (int i = 0; i < segments; ++i) {
-    const ChildSpacing::Part part = spacing.part_of(i, segments);
-    const auto at = static_cast<std::size_t>(i);
-    const float per_child = 1 / (count * part.share()), reached = reached_[at];
-    const int end = i + 1 == segments ? end_ : static_cast<int>(whole_[at]);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const ChildSpacing::Part part = parts_[i];
+    const float per_child = 1 / (count * part.share()), reached = reached_[i];
+    const int end = i + 1 == parts_.size() ? end_ : static_cast<int>(whole_[i]);
     for (; child < end; ++child) {
       const float shift = child % 2 == 1 ? distribution_ : 0;
       const float share = (static_cast<float>(child) - shift - reached) * per_child;
@@ -74,17 +81,15 @@ void ChildSpread::spread(const GrowingStem& stem, float child_count, const Child
   are_placed_ = !spacing.is_even();
   inverse_rate_ = 1 / even_rate;
   distribution_ = p.branch_dist[level_index(stem.level + 1)];
-  const auto rate = [&](std::size_t i) {
-    return count * spacing.part_of(static_cast<int>(i), segments).share();
-  };
-  const float reached =
-      are_placed_ ? pass(segments, rate) : pass(segments, [&](std::size_t) { return even_rate; });
+  if (are_placed_) share_parts(stem.level, spacing, segments);
+  const auto rate = [&](std::size_t i) { return are_placed_ ? count * parts_[i].share() : even_rate; };
+  const float reached = pass(segments, rate);
   first_ = 0;
   last_growth_ = 1;
   const float missing = static_cast<float>(end_ + 1) - reached;
-  const float last_rate = are_placed_ ? rate(static_cast<std::size_t>(segments - 1)) : even_rate;
+  const float last_rate = rate(static_cast<std::size_t>(segments - 1));
   if (last_rate > 0 && p.relaxed_counts > 0 && missing < 1) ++end_, last_growth_ = 1 - missing;
-  if (are_placed_) put_apart(count, spacing, segments);
+  if (are_placed_) put_apart(count, spacing);
   const float bare = p.base_size[level_index(stem.level)];
   while (first_ < end_ && place(first_, segments) < bare) ++first_;
 }

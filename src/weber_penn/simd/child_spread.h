@@ -11,6 +11,9 @@ namespace espalier {
 /// Child k sits in the segment in which the running count passes k + 1. Memory is kept from stem to stem.
 class ChildSpread {
  public:
+  /// Forgets what stems of a level share, for another plant.
+  void clear() { parts_.clear(); }
+
   /// Not for fans and whorls.
   static bool supports(float child_count, int child_level, const WeberPennParameters& parameters);
 
@@ -37,11 +40,14 @@ class ChildSpread {
   float place(int child, int segments) const;
   template <typename Rate>
   float pass(int segments, const Rate& rate);
-  void put_apart(float count, const ChildSpacing& spacing, int segments);
+  void share_parts(int level, const ChildSpacing& spacing, int segments);
+  void put_apart(float count, const ChildSpacing& spacing);
 
   int first_ = 0, end_ = 0;
   float last_growth_ = 1, inverse_rate_ = 0, distribution_ = 0;
   bool are_placed_ = false;
+  int level_ = 0;                          ///< whose stems share the parts
+  std::vector<ChildSpacing::Part> parts_;  ///< the segments, where children are not evenly spread
   std::vector<float> reached_, whole_, places_;
 };
 

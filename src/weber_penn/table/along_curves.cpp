@@ -37,22 +37,26 @@ double integral(const std::array<Piece, AlongCurve::kPieces>& pieces, double x) 
   return sum / AlongCurve::kPieces;
 }
 
+/// What place_of looks up.
+void prepare_places(DensityCurve& density) {
+  const auto& reached = density.reached;
+  const auto after = [&](float share) { return std::upper_bound(reached.begin(), reached.end(), share); };
+  for (std::size_t i = 0; i < density.starts.size(); ++i) {
+    const float share = static_cast<float>(i) / DensityCurve::kCells;
+    density.starts[i] = static_cast<std::uint8_t>(after(share) - reached.begin() - 1);
+    const float in_cell = reached[i + 1] - reached[i];
+    density.per_share[i] = in_cell > 0 ? 1 / in_cell : 0;
+  }
+  const auto last = std::lower_bound(reached.begin(), reached.end(), 1.f);
+  density.end = static_cast<float>(last - reached.begin()) / DensityCurve::kCells;
+}
+
 }  // namespace
 
 float DensityCurve::share_below(float x) const {
   const float u = std::clamp(x, 0.f, 1.f) * kCells;
   const auto cell = std::min(static_cast<std::size_t>(u), reached.size() - 2);
   return reached[cell] + (u - static_cast<float>(cell)) * (reached[cell + 1] - reached[cell]);
-}
-
-float DensityCurve::place_of(float share) const {
-  if (share >= 1) {
-    const auto end = std::lower_bound(reached.begin(), reached.end(), 1.f);
-    return static_cast<float>(end - reached.begin()) / kCells;
-  }
-  const auto after = std::upper_bound(reached.begin() + 1, reached.end() - 1, share);
-  const float below = *std::prev(after), cell = static_cast<float>(after - reached.begin() - 1);
-  return (cell + std::max(0.f, (share - below) / (*after - below))) / kCells;
 }
 
 AlongCurve make_along_curve(std::span<const double> numbers, double neutral) {
@@ -79,6 +83,7 @@ DensityCurve make_density_curve(std::span<const double> numbers) {
     density.reached[i] = before;
   }
   density.reached.back() = 1;
+  prepare_places(density);
   return density;
 }
 

@@ -4,6 +4,8 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace espalier {
@@ -28,10 +30,20 @@ struct DensityCurve {
   static constexpr int kCells = 64;
   bool is_neutral = true;                   ///< the same everywhere; has no shares then
   std::array<float, kCells + 1> reached{};  ///< share below x = i / kCells
+  std::array<float, kCells> per_share{};    ///< cells for each share of a cell; 0 where nothing grows
+  /// For shares from j / kCells on: the last cell that begins at or below them.
+  std::array<std::uint8_t, kCells> starts{};
+  float end = 1;  ///< the place above which nothing grows
 
   float share_below(float x) const;
-  /// Its inverse; where nothing grows, the far end, but for the last child.
-  float place_of(float share) const;
+
+  /// Its inverse; where nothing grows, the far end, but for the last child. share: not below 0.
+  float place_of(float share) const {
+    if (share >= 1) return end;
+    std::size_t cell = starts[static_cast<std::size_t>(share * kCells)];
+    while (reached[cell + 1] <= share) ++cell;
+    return (static_cast<float>(cell) + (share - reached[cell]) * per_share[cell]) / kCells;
+  }
 };
 
 /// Of 7 numbers; neutral where all of them are `neutral`.

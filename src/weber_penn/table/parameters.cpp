@@ -350,6 +350,7 @@ void append_curve(const CurveDefinition& definition, int level, ParameterTable& 
                           .argument = definition.argument,
                           .role = definition.role,
                           .neutral = definition.neutral});
+  table.rows.reserve(table.rows.size() + kCurveRows);
   for (int point = 0; point < static_cast<int>(kCurveRows); ++point)
     table.rows.push_back(make_curve_row(definition, level, point));
 }

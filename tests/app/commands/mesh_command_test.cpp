@@ -100,6 +100,23 @@ TEST_F(MeshCommand, SetChangesTheTree) {
   EXPECT_GT(extent_of(path("tall.stl")).top_m, 1.5f * extent_of(path("small.stl")).top_m);
 }
 
+TEST_F(MeshCommand, SetTakesCurves) {
+  const std::string bare = kSmallTree + " --set branches[1]=30 --set leaf_blos_num=0";
+  ASSERT_EQ(mesh(bare, "plain.stl").exit_code, 0);
+  ASSERT_EQ(mesh(bare + " --set 'length_along[1]=[0.1, 0.1, 0.1, 0.2]'", "narrow.stl").exit_code, 0);
+  EXPECT_LT(extent_of(path("narrow.stl")).reach_m, 0.4f * extent_of(path("plain.stl")).reach_m);
+}
+
+TEST_F(MeshCommand, BadCurvesAreRefused) {
+  for (const auto& [curve, message] :
+       {std::pair{"length_along[1]=1,2", "key 'length_along[1]': got 2 numbers, expected 1, 4, 5 or 7"},
+        {"length_along[1]=1,x,1,1", "got '1,x,1,1', expected 1, 4, 5 or 7 numbers"},
+        {"radius_along[0]=1,-1,1,1", "key 'radius_along[0]': got -1, expected a number 0..10"},
+        {"density_along[1]=0", "got a density of 0 everywhere"},
+        {"length_along[5]=1", "closest is 'length_along[1]"}})
+    expect_refused(kSmallTree + " --set '" + curve + "'", "a.glb", message);
+}
+
 TEST_F(MeshCommand, PruningKeepsBranchesInsideTheVolume) {
   const std::string bare = kSmallTree + " --set branches[1]=30 --set leaf_blos_num=0";
   ASSERT_EQ(mesh(bare, "free.stl").exit_code, 0);

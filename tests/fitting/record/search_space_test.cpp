@@ -84,7 +84,7 @@ TEST(SearchSpace, ACurveOfFourNumbersIsThatCurve) {
 
 RC_GTEST_PROP(SearchSpace, CurvesOfFewerNumbersEncodeAsTheyDecode, ()) {
   const SearchSpace space = space_of({"*_along~4", "bend_along[2]~5", "radius_along[0]~1", "g_scale"});
-  RC_ASSERT(space.dimension() == 1u + 20 * 4 + 5 + 1);
+  RC_ASSERT(space.dimension() == 1u + 21 * 4 + 5 + 1);
   const std::vector<double> unit = random_unit(space.dimension());
   ParameterValues values;
   space.decode(unit, values);
