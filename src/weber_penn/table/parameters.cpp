@@ -174,7 +174,7 @@ const Definition kDefinitions[] = {
   {&P::prune_power_high, "prune_power_high", "1", {0, 20}, {0.05, 2}, kReal, kNumber, "", "PrunePowerHigh", "curvature of the envelope above its peak"},
   {&P::relaxed_counts, "relaxed_counts", "1", {0, 1}, {0, 1}, kChoice, kNumber, "", "", "on: counts may be fractions, and the last child grows in proportion, so that searches see no jumps",
    {.choices = kSwitch, .role = {Role::relaxed_counts}}},
-  {&P::least_radius, "least_radius", "m", {0, 1}, {0.0005, 0.02}, kLog, kNumber, "", "", "least radius of a branch at its base, where its parent is no thinner"},
+  {&P::least_radius_mm, "least_radius", "mm", {0, 1000}, {0.5, 20}, kLog, kNumber, "", "", "least radius of a branch at its base, where its parent is no thinner"},
 };
 // clang-format on
 
