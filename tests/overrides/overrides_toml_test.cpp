@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <espalier/core/error.h>
+#include <espalier/overrides/change_graph.h>
 #include <espalier/overrides/overrides_toml.h>
 #include <espalier/overrides/overrides_tree.h>
 
@@ -27,8 +28,23 @@ Override any_override() {
   return {quantity, static_cast<Relation>(*rc::gen::inRange(0, 3)), number, *rc::gen::arbitrary<bool>()};
 }
 
+std::optional<DrawnAxis> any_axis() {
+  const std::size_t count = *rc::gen::element<std::size_t>(0, 3, 4, 6, 10);
+  if (count == 0) return std::nullopt;
+  DrawnAxis axis{{}, static_cast<AxisFrame>(*rc::gen::inRange(0, 2))};
+  const auto number = [] { return *rc::gen::inRange(-1000, 1001) / 3000.0; };
+  while (axis.points.size() < count) axis.points.push_back({number(), number(), number()});
+  axis.points.back().z = axis.points.front().z + 1;
+  return axis;
+}
+
+bool same(const std::optional<DrawnAxis>& a, const std::optional<DrawnAxis>& b) {
+  if (!a || !b) return !a && !b;
+  return a->points == b->points && a->frame == b->frame;
+}
+
 bool same(const OverrideSet& a, const OverrideSet& b) {
-  return a.shares == b.shares && a.crown == b.crown &&
+  return a.shares == b.shares && a.crown == b.crown && same(a.axis, b.axis) &&
          std::is_permutation(a.overrides.begin(), a.overrides.end(), b.overrides.begin(), b.overrides.end(),
                              [](const Override& x, const Override& y) {
                                const bool private_alike =
@@ -48,6 +64,7 @@ RC_GTEST_PROP(OverridesToml, ReadsBackTheSameBits, ()) {
       for (const BranchCrownNumber& each : numbers_of(set.crown.emplace()))
         *each.number =
             std::lerp(each.lower, each.upper, static_cast<float>(*rc::gen::inRange(0, 1001)) / 1000);
+    set.axis = any_axis();
   }
   overrides.shared["a b"].overrides = {{Quantity::length, Relation::factor, 1.25, false}};
   const Overrides back = read(overrides_to_toml(overrides));
@@ -128,6 +145,25 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"SetThatSharesItself", "[shared.a]\nshares = \"a\"\n",
                 "tree.toml:2: overrides: shared set 'a'"},
         BadText{"SetThatSharesAnUnknownOne", "[shared.a]\nshares = \"x\"\n", "'x'"},
+        BadText{"AxisOfOnePoint", "[[branch]]\npath = \"0\"\naxis = [[0, 0, 1]]\n",
+                "tree.toml:3: axis: got 1 points"},
+        BadText{"AxisOfTwoPoints", "[[branch]]\npath = \"0\"\naxis = [[0, 0, 1], [0, 0, 2]]\n",
+                "got 2 points of an axis, expected 3, 4, 6 or 10"},
+        BadText{"AxisOfAThousandKilometres",
+                "[[branch]]\npath = \"0\"\naxis = [[0, 0, 1], [0, 0, 2], [0, 0, 1e6]]\n",
+                "tree.toml:3: axis: got the number 1000000 of an axis, expected one from -1000 to 1000"},
+        BadText{"AxisOfNan", "[[branch]]\npath = \"0\"\naxis = [[0, 0, 1], [0, nan, 2], [0, 0, 3]]\n",
+                "got the number nan"},
+        BadText{"AxisOfOnePlace", "[[branch]]\npath = \"0\"\naxis = [[0, 0, 1], [0, 0, 1], [0, 0, 1]]\n",
+                "tree.toml:3: axis: got points of an axis that are all the same"},
+        BadText{"AxisInThePlane", "[[branch]]\npath = \"0\"\naxis = [[0, 1], [0, 2], [0, 3]]\n",
+                "expected an array of points [x, y, z]"},
+        BadText{"AxisOfText", "[[branch]]\npath = \"0\"\naxis = \"straight\"\n", "expected an array"},
+        BadText{"UnknownFrame",
+                "[[branch]]\npath = \"0\"\naxis = [[0, 0, 1], [0, 0, 2], [0, 0, 3]]\naxis_frame = \"sky\"\n",
+                "tree.toml:4: axis_frame: got 'sky', expected \"parent\" or \"world\""},
+        BadText{"FrameWithoutAxis", "[[branch]]\npath = \"0\"\naxis_frame = \"world\"\n",
+                "tree.toml:3: axis_frame"},
         BadText{"BranchIsNoArray", "branch = 3\n", "branch"}),
     [](const auto& info) { return info.param.name; });
 
@@ -136,6 +172,30 @@ TEST(OverridesTree, ShowsCrowns) {
   EXPECT_EQ(overrides_tree(
                 overrides, [](const BranchPath&) { return true; }, "# "),
             "#   0/3: a crown of 0.4 to the right, 0.1 up, 0.4 to the left, 0.4 down\n");
+}
+
+TEST(OverridesTree, ShowsAxes) {
+  const Overrides overrides =
+      read("[[branch]]\npath = \"0\"\naxis = [[0, 0, 1], [0, 0, 2], [0, 0, 3]]\naxis_frame = \"world\"\n");
+  const std::string tree = overrides_tree(
+      overrides, [](const BranchPath&) { return true; }, "# ");
+  EXPECT_EQ(tree, "# 0: axis of 3 points in the frame of the world\n");
+}
+
+/// A set's own axis comes before that of the set it shares.
+TEST(OverridesToml, AxesAreShared) {
+  const std::string shared = "[shared.arch]\naxis = [[0, 0, 1], [0, 0, 2], [0, 0, 3]]\n";
+  const std::string
+      first = "[[branch]]\npath = \"0/1\"\nshares = \"arch\"\n",
+      second = "[[branch]]\npath = \"0/2\"\nshares = \"arch\"\naxis = [[1, 0, 1], [0, 0, 2], [0, 0, 3]]\n",
+      third = "[[branch]]\npath = \"0/3\"\nlength = 1\n";
+  const Overrides overrides = read(first + second + third + shared);
+  const auto first_x = [&](std::size_t node) {
+    return resolved_axis(overrides.nodes[node].set, overrides)->points[0].x;
+  };
+  EXPECT_EQ(first_x(0), 0);
+  EXPECT_EQ(first_x(1), 1);
+  EXPECT_EQ(resolved_axis(overrides.nodes[2].set, overrides), nullptr);
 }
 
 TEST(OverridesTree, ShowsDepthInheritanceAndDormantNodes) {

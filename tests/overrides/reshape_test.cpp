@@ -187,6 +187,61 @@ RC_GTEST_PROP(Reshape, APartIsWhatItIsInTheWhole, ()) {
   RC_ASSERT(leaves == whole.leaves.size());
 }
 
+constexpr AxisPoint kCrooked[] = {{0.3, 0, 0.4}, {0.2, -0.5, 0.6}, {0, 0.4, 1.2}},
+                    kStraight[] = {{0, 0, 1}, {0, 0, 2}, {0, 0, 3}};
+
+Overrides on_axis(const BranchPath& path, std::span<const AxisPoint> points, AxisFrame frame) {
+  Overrides overrides;
+  overrides.at(path).set.axis = DrawnAxis{{points.begin(), points.end()}, frame};
+  return overrides;
+}
+
+RC_GTEST_PROP(Reshape, AStemOnAnAxisHasItsKnotsThere, ()) {
+  const JointedPlant jointed = any_jointed_plant();
+  const BranchPath path = any_path(jointed.plant);
+  const Plant shaped = reshaped(jointed, on_axis(path, kCrooked, AxisFrame::world));
+  const AxisCurve curve = make_axis(kCrooked);
+  const AxisArcs arcs(curve);
+  const ArcLengths before(jointed.plant);
+  for (std::size_t s = 0; s < shaped.stems.size(); ++s) {
+    if (path_of(shaped, s) != path) continue;
+    const float length_m = before.of_stem_m(jointed.plant.stems, s);
+    const std::size_t first = shaped.stems.first_knot[s];
+    for (std::size_t k = first; k < shaped.stems.first_knot[s + 1]; ++k) {
+      const AxisPoint at =
+          axis_point(curve, arcs.place_at(before.at_knot_m(k) / length_m)) * (length_m / arcs.length());
+      const Vec3 drawn_m{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
+      RC_ASSERT(length(shaped.knots.point_m[k] - shaped.knots.point_m[first] - drawn_m) < kRounding);
+    }
+  }
+}
+
+/// Its children are as far from their place on it as before.
+RC_GTEST_PROP(Reshape, WhatStandsOnAnAxisKeepsItsPlace, ()) {
+  const JointedPlant jointed = any_jointed_plant();
+  const Plant shaped = reshaped(jointed, on_axis(any_path(jointed.plant), kCrooked, AxisFrame::parent));
+  for (std::size_t s = 0; s < shaped.stems.size(); ++s) {
+    if (shaped.stems.origin[s] < 0) continue;
+    const auto off_m = [&](const Plant& plant) {
+      const auto origin = static_cast<std::size_t>(plant.stems.origin[s]);
+      return length(point_at(plant.stems, plant.knots, s, {}) -
+                    point_at(plant.stems, plant.knots, origin, jointed.joints.stem_place[s]));
+    };
+    RC_ASSERT(std::fabs(off_m(shaped) - off_m(jointed.plant)) < kRounding);
+  }
+}
+
+RC_GTEST_PROP(Reshape, AStraightAxisInTheParentsFrameGoesOnAsTheStemBegins, ()) {
+  const JointedPlant jointed = any_jointed_plant();
+  const std::size_t stem = *rc::gen::inRange<std::size_t>(0, jointed.plant.stems.size());
+  RC_PRE(jointed.plant.stems.origin[stem] >= 0);
+  const Plant shaped = reshaped(jointed, on_axis(path_of(jointed.plant, stem), kStraight, AxisFrame::parent));
+  const Vec3 first = direction_at(jointed.plant.stems, jointed.plant.knots, stem, {});
+  const Vec3 whole_m = shaped.knots.point_m[shaped.stems.first_knot[stem + 1] - 1] -
+                       shaped.knots.point_m[shaped.stems.first_knot[stem]];
+  RC_ASSERT(dot(normalized(whole_m), first) > 1 - 1e-5f);
+}
+
 RC_GTEST_PROP(Reshape, AFullTurnIsNone, ()) {
   const JointedPlant jointed = any_jointed_plant();
   const auto quantity = *rc::gen::element(Quantity::rotation, Quantity::down_angle);

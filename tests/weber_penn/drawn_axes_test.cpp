@@ -322,7 +322,7 @@ TEST(LeastRadius, IsThatOfTheThinnestBranches) {
                                                {"ratio", 0.06},
                                                {"taper[0]", 0},
                                                {"radius_mod[1]", 0.2},
-                                               {"least_radius", least_m}});
+                                               {"least_radius", 1000 * least_m}});
     const Plant plant = grow(values, {});
     float thinnest_m = 1;
     for (std::size_t stem = 1; stem < plant.stems.size(); ++stem)

@@ -15,7 +15,7 @@ inline float child_radius_m(float length_m, float parent_length_m, float parent_
                             int level, const WeberPennParameters& p) {
   const float scaled_m = p.radius_mod[level_index(level)] * parent_radius_m *
                          std::pow(length_m / parent_length_m, p.ratio_power);
-  return std::min(site_radius_m, std::max(p.least_radius, scaled_m));
+  return std::min(site_radius_m, std::max(p.least_radius_mm / 1000, scaled_m));
 }
 
 /// The longest child relative to this stem; the stem has its level and key.

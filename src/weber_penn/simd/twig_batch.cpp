@@ -30,8 +30,9 @@ void make_sizes(const WaitingChildren& children, const TwigBatchParents& parents
   const Vector scaled_m =
       hn::Mul(hn::Mul(set(p.radius_mod[level_index(level)]), hn::Load(d, &parents.radius_m[at])), ratio);
   hn::Store(length_m, d, &made.length_m[at]);
-  hn::Store(hn::Min(hn::Load(d, &children.parent_radius_m[at]), hn::Max(set(p.least_radius), scaled_m)), d,
-            &made.radius_m[at]);
+  hn::Store(
+      hn::Min(hn::Load(d, &children.parent_radius_m[at]), hn::Max(set(p.least_radius_mm / 1000), scaled_m)),
+      d, &made.radius_m[at]);
 }
 
 /// Rolled, turned down and renormalized, as close to the parent's surface as is safe.

@@ -212,7 +212,7 @@ const Definition kDefinitions[] = {
    kOfCrown},
   {&P::crown_shape_below, "crown_shape_below", "1", {0.1, 20}, {0.5, 6}, kLog, kNumber, "", "", "how the crown bulges below its rim: 1 a cone, 2 an ellipsoid, under 1 hollow",
    kOfCrown},
-  {&P::least_radius, "least_radius", "m", {0, 1}, {0.0005, 0.02}, kLog, kNumber, "", "", "least radius of a branch at its base, where its parent is no thinner"},
+  {&P::least_radius_mm, "least_radius", "mm", {0, 1000}, {0.5, 20}, kLog, kNumber, "", "", "least radius of a branch at its base, where its parent is no thinner"},
 };
 // clang-format on
 

@@ -40,7 +40,7 @@ struct WeberPennParameters {
   float prune_ratio = 0, prune_width = 0.5f, prune_width_peak = 0.5f;
   float prune_power_low = 0.5f, prune_power_high = 0.5f;
   float relaxed_counts = 0;
-  float least_radius = 0.005f;
+  float least_radius_mm = 5;  ///< in millimetres: not of the tree's size, as what is in metres is
   float crown_use = 0;
   float crown_top = 1, crown_top_x = 0, crown_top_y = 0;
   float crown_base = 0.3f, crown_base_x = 0, crown_base_y = 0;
