@@ -234,9 +234,7 @@ class Refinement {
 
   void finish() {
     for (const Branch& branch : branches_) write_offsets(branch, solution_.overrides);
-    std::erase_if(solution_.overrides.nodes, [](const OverrideNode& node) {
-      return node.set.empty();
-    });
+    std::erase_if(solution_.overrides.nodes, [](const OverrideNode& node) { return node.set.empty(); });
     Masks masks;
     drawer_.draw(solution_, nullptr, masks);
     solution_.score = score_of_drawn(task_, masks) + price_of_numbers(task_, solution_);
