@@ -171,7 +171,8 @@ std::string crown_text(const CrownReading& crown, double height_m) {
   };
   const auto m = [&](double share) { return fmt::format("{:.3g}", height_m * share); };
   return fmt::format(
-      "crown(top = {}, top_x = {}, base = {}, base_x = {}, radius = {}, radius_right = {}, radius_left = {}, "
+      "crown(top = {}, top_x = {}, bottom = {}, bottom_x = {}, radius = {}, radius_right = {}, radius_left = "
+      "{}, "
       "rim = {}, "
       "rim_right = {}, rim_left = {}, shape_above = {:.2f}, shape_below = {:.2f})",
       m(crown.top), m(apex_x(crown.top_x)), m(crown.base), m(apex_x(crown.base_x)),

@@ -19,7 +19,7 @@ struct CrownReading {
 /// where it is widest. Throws InputError for a mask without a crown: of less than three rows.
 CrownReading read_crown(const Mask& mask, const PictureReading& reading);
 
-/// The volume of a tree `height_m` tall, as text: "crown(top = 12, base = 3, …)". Its front and back, which
+/// The volume of a tree `height_m` tall, as text: "crown(top = 12, bottom = 3, …)". Its front and back, which
 /// are not seen, are as the mean of its sides.
 std::string crown_text(const CrownReading& crown, double height_m);
 

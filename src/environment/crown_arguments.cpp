@@ -10,7 +10,7 @@ namespace espalier {
 namespace {
 
 constexpr std::array<std::string_view, 20> kArguments{
-    "top",          "top_x",       "top_y",       "base",         "base_x",      "base_y",    "radius",
+    "top",          "top_x",       "top_y",       "bottom",       "bottom_x",    "bottom_y",  "radius",
     "radius_right", "radius_back", "radius_left", "radius_front", "rim",         "rim_right", "rim_back",
     "rim_left",     "rim_front",   "shape",       "shape_above",  "shape_below", "profile"};
 constexpr std::array<std::string_view, 2> kProfiles{"superellipse", "power"};
@@ -48,12 +48,12 @@ std::unique_ptr<Volume> make_crown(std::span<const float> numbers) {
   crown.top_m = {given.at("top_x", 0), given.at("top_y", 0), given.at("top", NAN)};
   if (std::isnan(crown.top_m.z))
     throw_input_error("crown: got no top, expected one, as in crown(top = 9, radius = 3)");
-  crown.base_m = {given.at("base_x", 0), given.at("base_y", 0), given.at("base", 0)};
+  crown.bottom_m = {given.at("bottom_x", 0), given.at("bottom_y", 0), given.at("bottom", 0)};
   crown.radius_m = given.sides("radius", NAN);
   for (const float radius_m : crown.radius_m)
     if (std::isnan(radius_m))
       throw_input_error("crown: got no radius of some side, expected 'radius', or one for each side");
-  crown.rim_m = given.sides("rim", (crown.top_m.z + crown.base_m.z) / 2);
+  crown.rim_m = given.sides("rim", (crown.top_m.z + crown.bottom_m.z) / 2);
   const float shape = given.at("shape", 2);
   crown.shape_above = given.at("shape_above", shape);
   crown.shape_below = given.at("shape_below", shape);

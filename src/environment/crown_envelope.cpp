@@ -1,5 +1,5 @@
-// Everything about the envelope follows from one number for each of top and base: the level of a point, 1 on
-// the surface, less inside. It needs where the ray from the apex through the point, seen from above, meets
+// Everything about the envelope follows from one number for each of top and bottom: the level of a point, 1
+// on the surface, less inside. It needs where the ray from the apex through the point, seen from above, meets
 // the rim: a quarter of an ellipse, in closed form. In double: heights near the rim change with the root of 1
 // − ρ.
 #include <algorithm>
@@ -30,16 +30,16 @@ void check_bulge(const char* where, float shape) {
 
 void check_shape(const CrownShape& shape) {
   check_point("top", shape.top_m);
-  check_point("base", shape.base_m);
-  if (!(shape.top_m.z > shape.base_m.z))
-    throw_input_error("crown: top is {}, expected more than its base, {}", shape.top_m.z, shape.base_m.z);
+  check_point("bottom", shape.bottom_m);
+  if (!(shape.top_m.z > shape.bottom_m.z))
+    throw_input_error("crown: top is {}, expected more than its bottom, {}", shape.top_m.z, shape.bottom_m.z);
   for (std::size_t side = 0; side < 4; ++side) {
     if (!(shape.radius_m[side] > 0 && std::isfinite(shape.radius_m[side])))
       throw_input_error("crown: radius to the {} is {}, expected a positive number", kSides[side],
                         shape.radius_m[side]);
-    if (!(shape.rim_m[side] >= shape.base_m.z && shape.rim_m[side] <= shape.top_m.z))
-      throw_input_error("crown: rim at the {} is {}, expected from base to top, {} .. {}", kSides[side],
-                        shape.rim_m[side], shape.base_m.z, shape.top_m.z);
+    if (!(shape.rim_m[side] >= shape.bottom_m.z && shape.rim_m[side] <= shape.top_m.z))
+      throw_input_error("crown: rim at the {} is {}, expected from bottom to top, {} .. {}", kSides[side],
+                        shape.rim_m[side], shape.bottom_m.z, shape.top_m.z);
   }
   check_bulge("above", shape.shape_above);
   check_bulge("below", shape.shape_below);
@@ -52,13 +52,13 @@ double squared(double x) { return x * x; }
 CrownEnvelope::CrownEnvelope(const CrownShape& shape)
     : shape_(shape),
       top_(apex(shape.top_m, shape.shape_above)),
-      base_(apex(shape.base_m, shape.shape_below)) {
+      bottom_(apex(shape.bottom_m, shape.shape_below)) {
   check_shape(shape);
   set_quarters();
   check_is_within_rim("top", shape.top_m);
-  check_is_within_rim("base", shape.base_m);
+  check_is_within_rim("bottom", shape.bottom_m);
   top_.clearance_m = clearance_m(top_);
-  base_.clearance_m = clearance_m(base_);
+  bottom_.clearance_m = clearance_m(bottom_);
 }
 
 CrownEnvelope::Apex CrownEnvelope::apex(Vec3 point_m, float exponent) {
@@ -147,7 +147,7 @@ double CrownEnvelope::fall(double rho, double exponent) const {
 double CrownEnvelope::level(const Apex& apex, double x, double y, double z) const {
   const RimHit rim = rim_beyond(apex, x, y);
   const double rho = 1 / rim.steps;
-  const double flat_m = 1e-6 * (top_.z - base_.z), full_m = std::fabs(apex.z - rim.height_m);
+  const double flat_m = 1e-6 * (top_.z - bottom_.z), full_m = std::fabs(apex.z - rim.height_m);
   const double above_m = &apex == &top_ ? z - rim.height_m : rim.height_m - z;
   const double rise = above_m / std::max(full_m, flat_m);  // 0 at the rim, 1 at the apex
   if (shape_.profile == CrownProfile::power) return std::pow(rho, apex.exponent) + std::max(rise, 0.);
@@ -159,7 +159,7 @@ double CrownEnvelope::level(const Apex& apex, double x, double y, double z) cons
 
 /// Less than 0 inside, 0 on the surface.
 double CrownEnvelope::outside(double x, double y, double z) const {
-  return std::max(level(top_, x, y, z), level(base_, x, y, z)) - 1;
+  return std::max(level(top_, x, y, z), level(bottom_, x, y, z)) - 1;
 }
 
 double CrownEnvelope::height_m(const Apex& apex, const RimHit& rim) const {
@@ -167,15 +167,15 @@ double CrownEnvelope::height_m(const Apex& apex, const RimHit& rim) const {
 }
 
 std::optional<CrownEnvelope::Heights> CrownEnvelope::heights_m(double x_m, double y_m) const {
-  const RimHit of_base = rim_beyond(base_, x_m, y_m), of_top = rim_beyond(top_, x_m, y_m);
-  if (!(of_base.steps >= 1 && of_top.steps >= 1)) return std::nullopt;
-  return Heights{height_m(base_, of_base), height_m(top_, of_top)};
+  const RimHit of_bottom = rim_beyond(bottom_, x_m, y_m), of_top = rim_beyond(top_, x_m, y_m);
+  if (!(of_bottom.steps >= 1 && of_top.steps >= 1)) return std::nullopt;
+  return Heights{height_m(bottom_, of_bottom), height_m(top_, of_top)};
 }
 
 /// To first order: f/|∇f| of f = level − 1, not deeper than the crown is thick.
 float CrownEnvelope::signed_distance_m(Vec3 point_m) const {
   const double x = point_m.x, y = point_m.y, z = point_m.z, f = outside(x, y, z);
-  const double deepest_m = std::min({top_.clearance_m, base_.clearance_m, 0.5 * (top_.z - base_.z)});
+  const double deepest_m = std::min({top_.clearance_m, bottom_.clearance_m, 0.5 * (top_.z - bottom_.z)});
   const double step_m = 1e-4 * deepest_m;
   const double slope = std::hypot(outside(x + step_m, y, z) - outside(x - step_m, y, z),
                                   outside(x, y + step_m, z) - outside(x, y - step_m, z),
@@ -190,11 +190,11 @@ bool CrownEnvelope::surely_contains_ball(Vec3 center_m, float radius_m) const {
   const auto most_rho = [&](const Apex& apex) {
     return 1 / rim_beyond(apex, center_m.x, center_m.y).steps + radius_m / apex.clearance_m;
   };
-  const double above = most_rho(top_), below = most_rho(base_);
+  const double above = most_rho(top_), below = most_rho(bottom_);
   if (!(above < 1 && below < 1)) return false;
   const auto [lowest_m, highest_m] = std::minmax_element(shape_.rim_m.begin(), shape_.rim_m.end());
   return center_m.z + radius_m < std::lerp(top_.z, double{*lowest_m}, fall(above, top_.exponent)) &&
-         center_m.z - radius_m > std::lerp(base_.z, double{*highest_m}, fall(below, base_.exponent));
+         center_m.z - radius_m > std::lerp(bottom_.z, double{*highest_m}, fall(below, bottom_.exponent));
 }
 
 /// A function's values at the ends of a span, of which one is above 0 and the other not.
@@ -207,7 +207,7 @@ struct CrownEnvelope::Bracket {
 template <typename Function>
 std::optional<CrownEnvelope::Bracket> CrownEnvelope::first_exit(const Function& value_at, double end) const {
   const double first = value_at(0);
-  if (first <= 0 && top_.exponent >= 1 && base_.exponent >= 1) return Bracket{0, first, end, value_at(end)};
+  if (first <= 0 && top_.exponent >= 1 && bottom_.exponent >= 1) return Bracket{0, first, end, value_at(end)};
   constexpr int kSamples = 8;
   Bracket bracket{0, first, 0, first};
   for (int i = 1; i <= kSamples; ++i) {
@@ -240,7 +240,8 @@ double CrownEnvelope::root(const Function& value_at, Bracket bracket) {
 float CrownEnvelope::reach_m(Vec3 from_m, Vec3 direction) const {
   const bool is_upright = direction.x == 0 && direction.y == 0;
   double end = is_upright ? INFINITY : rim_hit(from_m.x, from_m.y, direction.x, direction.y).steps;
-  if (direction.z != 0) end = std::min(end, ((direction.z > 0 ? top_.z : base_.z) - from_m.z) / direction.z);
+  if (direction.z != 0)
+    end = std::min(end, ((direction.z > 0 ? top_.z : bottom_.z) - from_m.z) / direction.z);
   if (!(end > 0) || !std::isfinite(end)) return 0;
   const auto outside_at = [&](double t) {
     return outside(from_m.x + t * direction.x, from_m.y + t * direction.y, from_m.z + t * direction.z);

@@ -1,11 +1,11 @@
-// The asymmetric crown envelope of 16 numbers: a top and a base, the line of the crown's widest points
+// The asymmetric crown envelope of 16 numbers: a top and a bottom, the line of the crown's widest points
 // between them (the rim), and how the crown bulges above and below it. Metres; x to the right, y to the back,
 // z up. Sources: Horn 1971, Koop 1989, Cescatti 1997 (Modelling the radiative transfer in discontinuous
 // canopies of asymmetric crowns); control points as in Boudon, Prusinkiewicz, Federl, Godin, Karwowski 2003
 // (Interactive design of bonsai tree models, §2.4).
 //   rim:    L(θ) = (rᵢ cos θ, rⱼ sin θ, hᵢ cos² θ + hⱼ sin² θ), i and j the sides of θ's quarter
 //   above:  P = T + ρ (L − T) in plan, z = z_L + (z_T − z_L) (1 − ρ^C)^(1/C), ρ from 0 (top) to 1 (rim)
-//   below:  the same with the base and its C
+//   below:  the same with the bottom and its C
 #pragma once
 #include <array>
 #include <memory>
@@ -24,7 +24,7 @@ enum class CrownProfile { superellipse, power };
 
 /// Sides in the order of numbers: to the right (x > 0), back (y > 0), left, front (of who looks along +y).
 struct CrownShape {
-  Vec3 top_m{0, 0, 1}, base_m{0, 0, 0};
+  Vec3 top_m{0, 0, 1}, bottom_m{0, 0, 0};
   std::array<float, 4> radius_m{0.5f, 0.5f, 0.5f, 0.5f};  ///< of the rim on each side
   std::array<float, 4> rim_m{0.5f, 0.5f, 0.5f, 0.5f};     ///< its height there
   float shape_above = 2, shape_below = 2;                 ///< C above and below the rim
@@ -33,7 +33,7 @@ struct CrownShape {
 
 class CrownEnvelope final : public Volume {
  public:
-  /// Throws InputError unless all is finite, radii are positive, the rim lies between base and top, both of
+  /// Throws InputError unless all is finite, radii are positive, the rim lies between bottom and top, both of
   /// these within the rim as seen from above, and shapes in 0.1 … 100.
   explicit CrownEnvelope(const CrownShape& shape);
 
@@ -58,7 +58,7 @@ class CrownEnvelope final : public Volume {
   const CrownShape& shape() const { return shape_; }
 
  private:
-  /// The top or the base, with its bulge.
+  /// The top or the bottom, with its bulge.
   struct Apex {
     double x, y, z, exponent;
     double clearance_m = 0;  ///< to the rim, as seen from above; not more than it is
@@ -89,7 +89,7 @@ class CrownEnvelope final : public Volume {
 
   CrownShape shape_;
   std::array<Quarter, 4> quarters_;
-  Apex top_, base_;
+  Apex top_, bottom_;
 };
 
 /// The names of the numbers of "crown(top = 9, radius = 3)"; "profile" is the name of one.
@@ -97,7 +97,7 @@ std::span<const std::string_view> crown_arguments();
 std::span<const std::string_view> crown_profiles();
 
 /// The crown of numbers in the order of crown_arguments(), NaN for those not given: `radius`, `rim` and
-/// `shape` stand for those of all sides; without a rim it lies in the middle, without a base on the ground.
+/// `shape` stand for those of all sides; without a rim it lies in the middle, without a bottom on the ground.
 /// Throws InputError where top or radius is missing, and as CrownEnvelope does.
 std::unique_ptr<Volume> make_crown(std::span<const float> numbers);
 

@@ -51,7 +51,7 @@ constexpr std::array<Kind, 16> kKinds{{
      [](const Numbers& n, Parts&&) -> VolumePtr {
        return make_spiral({{n[0], n[1], n[2]}, n[3], n[4], n[5], n[6], n[7]});
      }},
-    {"crown", "crown(top = z, base = z, radius = r, …)", false, 0, 0, 0,
+    {"crown", "crown(top = z, bottom = z, radius = r, …)", false, 0, 0, 0,
      [](const Numbers& n, Parts&&) -> VolumePtr { return make_crown(n); }, crown_arguments},
     {"mesh", "mesh(\"file.obj\")", true, 0, 0, 0,
      [](const Numbers&, Parts&& parts) -> VolumePtr { return parts[0]; }},

@@ -87,7 +87,7 @@ double mean_crown_reach(const WeberPennParameters& p) {
   constexpr std::array kSides{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}};
   double sum = 0;
   for (int i = 0; i < kHeights; ++i) {
-    const Vec3 start = lerp(crown.shape().base_m, crown.shape().top_m, (i + 0.5f) / kHeights);
+    const Vec3 start = lerp(crown.shape().bottom_m, crown.shape().top_m, (i + 0.5f) / kHeights);
     for (const Vec3 side : kSides) sum += crown.reach_m(start, side);
   }
   return sum / (kHeights * kSides.size());

@@ -61,10 +61,10 @@ CrownShape crown_shape(const WeberPennParameters& p, float tree_scale_m) {
                 offset_m(y, crown.radius_m[1], crown.radius_m[3]), height_m};
   };
   crown.top_m = apex(p.crown_top_x, p.crown_top_y, p.crown_top * tree_scale_m);
-  crown.base_m = apex(p.crown_base_x, p.crown_base_y, p.crown_base * crown.top_m.z);
+  crown.bottom_m = apex(p.crown_bottom_x, p.crown_bottom_y, p.crown_bottom * crown.top_m.z);
   const std::array rim{p.crown_rim_right, p.crown_rim_back, p.crown_rim_left, p.crown_rim_front};
   for (std::size_t side = 0; side < rim.size(); ++side)
-    crown.rim_m[side] = std::lerp(crown.base_m.z, crown.top_m.z, rim[side]);
+    crown.rim_m[side] = std::lerp(crown.bottom_m.z, crown.top_m.z, rim[side]);
   crown.shape_above = p.crown_shape_above;
   crown.shape_below = p.crown_shape_below;
   return crown;
@@ -102,11 +102,11 @@ const PlacedCrown* TreeCrown::gives_lengths(int level) const {
 }
 
 bool TreeCrown::TrunkRoom::contains(Vec3 point_m) const {
-  return point_m.z <= crown_.shape().base_m.z || crown_.is_under_top(point_m);
+  return point_m.z <= crown_.shape().bottom_m.z || crown_.is_under_top(point_m);
 }
 
 float TreeCrown::TrunkRoom::signed_distance_m(Vec3 point_m) const {
-  const float below_m = point_m.z - crown_.shape().base_m.z, outside_m = crown_.signed_distance_m(point_m);
+  const float below_m = point_m.z - crown_.shape().bottom_m.z, outside_m = crown_.signed_distance_m(point_m);
   const float distance_m = std::min(below_m, outside_m);
   return contains(point_m) ? std::min(distance_m, 0.f) : std::max(distance_m, 0.f);
 }

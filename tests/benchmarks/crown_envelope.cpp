@@ -13,7 +13,7 @@ namespace {
 
 CrownEnvelope crown(float shape_above, float shape_below) {
   return CrownEnvelope({.top_m = {0.3f, 0, 10},
-                        .base_m = {0, 0, 2},
+                        .bottom_m = {0, 0, 2},
                         .radius_m = {4, 3, 2.5f, 3.5f},
                         .rim_m = {4.5f, 5, 6, 4},
                         .shape_above = shape_above,

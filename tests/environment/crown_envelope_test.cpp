@@ -22,7 +22,7 @@ struct Point {
 /// Boudon et al. 2003, Fig. 5: no two numbers alike.
 CrownShape lopsided() {
   return {.top_m = {0.1f, 0, 1},
-          .base_m = {0, 0, 0},
+          .bottom_m = {0, 0, 0},
           .radius_m = {0.5f, 0.4f, 0.3f, 0.45f},
           .rim_m = {0.35f, 0.4f, 0.5f, 0.3f},
           .shape_above = 2,
@@ -30,26 +30,26 @@ CrownShape lopsided() {
 }
 
 CrownShape unit_ball() {
-  return {.top_m = {0, 0, 1}, .base_m = {0, 0, -1}, .radius_m = {1, 1, 1, 1}, .rim_m = {0, 0, 0, 0}};
+  return {.top_m = {0, 0, 1}, .bottom_m = {0, 0, -1}, .radius_m = {1, 1, 1, 1}, .rim_m = {0, 0, 0, 0}};
 }
 
-/// Any crown, with leaning tops and bases.
+/// Any crown, with leaning tops and bottoms.
 CrownShape any_crown() {
   const auto number = [](double low, double high) {
     return static_cast<float>(low + (high - low) * *rc::gen::inRange(0, 10001) / 10000.0);
   };
   CrownShape crown;
   crown.top_m.z = number(4, 12);
-  crown.base_m.z = number(0, 3);
+  crown.bottom_m.z = number(0, 3);
   for (float& radius : crown.radius_m) radius = number(0.5, 5);
-  for (float& rim : crown.rim_m) rim = std::lerp(crown.base_m.z, crown.top_m.z, number(0.05, 0.95));
+  for (float& rim : crown.rim_m) rim = std::lerp(crown.bottom_m.z, crown.top_m.z, number(0.05, 0.95));
   const auto lean = [&](Vec3& apex) {
     const float x = number(-0.6, 0.6), y = number(-0.6, 0.6);
     apex.x = x * crown.radius_m[x > 0 ? 0 : 2];
     apex.y = y * crown.radius_m[y > 0 ? 1 : 3];
   };
   lean(crown.top_m);
-  lean(crown.base_m);
+  lean(crown.bottom_m);
   crown.shape_above = number(1, 6);
   crown.shape_below = number(1, 6);
   crown.profile = *rc::gen::element(CrownProfile::superellipse, CrownProfile::power);
@@ -108,7 +108,7 @@ void expect_parametric_points_on(const CrownShape& shape) {
     const Point rim = rim_point(shape, 2 * std::numbers::pi * std::fmod(k * 0.618, 1.0));
     const double rho = std::fmod(k * 0.7548, 1.0);
     const Point above = surface_point(shape, shape.top_m, shape.shape_above, rim, rho),
-                below = surface_point(shape, shape.base_m, shape.shape_below, rim, rho);
+                below = surface_point(shape, shape.bottom_m, shape.shape_below, rim, rho);
     ASSERT_NEAR(crown.heights_m(above.x, above.y).value().upper_m, above.z, 1e-6) << k;
     ASSERT_NEAR(crown.heights_m(below.x, below.y).value().lower_m, below.z, 1e-6) << k;
   }
@@ -173,10 +173,10 @@ RC_GTEST_PROP(CrownEnvelope, AReachEndsAtTheSurface, ()) {
   const CrownShape shape = any_crown();
   const CrownEnvelope crown(shape);
   const float share = static_cast<float>(*rc::gen::inRange(10, 91)) / 100;
-  const Vec3 start = lerp(shape.base_m, shape.top_m, share), direction = any_direction();
+  const Vec3 start = lerp(shape.bottom_m, shape.top_m, share), direction = any_direction();
   RC_PRE(crown.contains(start));
   const Vec3 end = start + direction * crown.reach_m(start, direction);
-  RC_ASSERT(std::fabs(crown.signed_distance_m(end)) < 1e-3f * (shape.top_m.z - shape.base_m.z));
+  RC_ASSERT(std::fabs(crown.signed_distance_m(end)) < 1e-3f * (shape.top_m.z - shape.bottom_m.z));
 }
 
 RC_GTEST_PROP(CrownEnvelope, ARayLeavesAConvexCrownOnceAndThatIsItsReach, ()) {
@@ -184,7 +184,7 @@ RC_GTEST_PROP(CrownEnvelope, ARayLeavesAConvexCrownOnceAndThatIsItsReach, ()) {
   shape.rim_m.fill(shape.rim_m[0]);
   const CrownEnvelope crown(shape);
   const float share = static_cast<float>(*rc::gen::inRange(10, 91)) / 100;
-  const Vec3 start = lerp(shape.base_m, shape.top_m, share), direction = any_direction();
+  const Vec3 start = lerp(shape.bottom_m, shape.top_m, share), direction = any_direction();
   RC_PRE(crown.signed_distance_m(start) < -0.1f);
   const float reach_m = crown.reach_m(start, direction);
   for (const float before : {0.2f, 0.5f, 0.8f, 0.995f})
@@ -207,7 +207,7 @@ RC_GTEST_PROP(CrownEnvelope, ABallThatSurelyLiesInsideDoes, ()) {
   const CrownShape shape = any_crown();
   const CrownEnvelope crown(shape);
   const float share = static_cast<float>(*rc::gen::inRange(5, 96)) / 100;
-  const Vec3 center = lerp(shape.base_m, shape.top_m, share);
+  const Vec3 center = lerp(shape.bottom_m, shape.top_m, share);
   float radius = 0, too_large = 20;  // of the largest such ball
   for (int i = 0; i < 20; ++i) {
     const float middle = (radius + too_large) / 2;
@@ -219,7 +219,7 @@ RC_GTEST_PROP(CrownEnvelope, ABallThatSurelyLiesInsideDoes, ()) {
 
 TEST(CrownEnvelope, BallsUnderALowRimAndOverAHighOneAreNotTakenToLieInside) {
   const CrownEnvelope crown({.top_m = {0, 0, 2},
-                             .base_m = {0, 0, 0},
+                             .bottom_m = {0, 0, 0},
                              .radius_m = {1, 1, 1, 1},
                              .rim_m = {0.1f, 1, 1.9f, 1},
                              .shape_above = 1,
@@ -267,7 +267,7 @@ std::string crown_error(const std::string& text) {
 }
 
 TEST(CrownText, NumbersWithoutASideAreThoseOfAllSides) {
-  const auto crown = parse_volume("crown(top = 9, radius = 3, rim_left = 2, rim = 4, shape = 1, base = 1)");
+  const auto crown = parse_volume("crown(top = 9, radius = 3, rim_left = 2, rim = 4, shape = 1, bottom = 1)");
   EXPECT_TRUE(crown->contains({2.9f, 0, 4}));
   EXPECT_TRUE(crown->contains({-2.9f, 0, 2}));
   EXPECT_FALSE(crown->contains({-2.9f, 0, 4}));
@@ -275,7 +275,7 @@ TEST(CrownText, NumbersWithoutASideAreThoseOfAllSides) {
   EXPECT_FALSE(crown->contains({0, 0, 0.9f}));
 }
 
-TEST(CrownText, WithoutARimAndABaseItStandsOnTheGroundAndIsWidestInTheMiddle) {
+TEST(CrownText, WithoutARimAndABottomItStandsOnTheGroundAndIsWidestInTheMiddle) {
   const auto crown = parse_volume("crown(top = 8, radius = 3)");
   EXPECT_TRUE(crown->contains({2.99f, 0, 4}));
   EXPECT_TRUE(crown->contains({0, 0, 0.01f}));
@@ -284,14 +284,15 @@ TEST(CrownText, WithoutARimAndABaseItStandsOnTheGroundAndIsWidestInTheMiddle) {
 
 TEST(CrownText, ErrorsSayWhereWhatWasGotAndExpected) {
   const std::pair<const char*, const char*> faults[] = {
-      {"crown(top = 1, base = 2, radius = 1)", "column 1: crown: top is 1, expected more than its base, 2"},
+      {"crown(top = 1, bottom = 2, radius = 1)",
+       "column 1: crown: top is 1, expected more than its bottom, 2"},
       {"crown(top = 9, radius = -3)", "crown: radius to the right is -3, expected a positive number"},
       {"crown(top = 9, radius = 3, radius_front = 0)", "radius to the front is 0"},
       {"crown(top = 9, radius = nan)", "column 25: 'nan' is not a finite number"},
       {"crown(top = 9, radius = 3, shape = 0)", "crown: shape above is 0, expected 0.1 .. 100"},
       {"crown(top = 9, radius = 3, shape_below = 0)", "crown: shape below is 0"},
       {"crown(top = 9, radius = 3, rim = 10)",
-       "crown: rim at the right is 10, expected from base to top, 0 .. 9"},
+       "crown: rim at the right is 10, expected from bottom to top, 0 .. 9"},
       {"crown(top = 9, radius = 3, top_x = 4)", "crown: top is 1.33 times as far out as the rim"},
       {"crown(radius = 3)", "crown: got no top"},
       {"crown(top = 9, radius_left = 3)", "crown: got no radius of some side"},

@@ -46,7 +46,7 @@ const std::vector<std::string>& samples() {
       "difference(ball(0,0,0, 2), ball(1,0,0, 1))",
       "blend(0.5, ball(-1,0,0, 1), ball(1,0,0, 1))",
       "moved(1,1,0, turned(30, scaled(2, box(0,0,0, 1,0.5,1))))",
-      "crown(top = 3, base = -2, radius = 2, rim_left = 2, top_x = 1)",
+      "crown(top = 3, bottom = -2, radius = 2, rim_left = 2, top_x = 1)",
       fmt::format("mesh(\"{}\")", file("cube.obj", kCube).string())};
   return texts;
 }

@@ -376,7 +376,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"BadSyntax", "flare = = 1", "got bad TOML"},
         Fault{"CrownWithoutARadius", "crown_radius_left = 0",
               "key 'crown_radius_left': got 0, expected a number"},
-        Fault{"CrownWhoseBaseIsItsTop", "crown_base = 1", "key 'crown_base': got 1, expected a number"},
+        Fault{"CrownWhoseBottomIsItsTop", "crown_bottom = 1", "key 'crown_bottom': got 1, expected a number"},
         Fault{"UnknownUseOfACrown", "crown_use = \"prune\"",
               "key 'crown_use': got 'prune', expected one of off, cut, length, train"},
         Fault{"ExtendsNothing", "extends = \"acre\"",

@@ -24,7 +24,9 @@ ALLOWED = {
     "src/overrides/overrides.cpp": {"down_angle"},                         # a quantity of a branch
     "src/lsystem/notation/settings.cpp": {"leaf_shape", "blossom_shape"},  # settings of an L-system
     "src/plant/leaf_outlines.cpp": {"leaf_shape", "blossom_shape"},        # of any plant
-    "src/core/parameter_role.cpp": {"relaxed_counts", "crown_base"},       # roles
+    "src/core/parameter_role.cpp": {"relaxed_counts"},                     # a role
+    "src/environment/crown_arguments.cpp": {"shape"},                      # of an envelope
+    "src/overrides/branch_crown.cpp": {"shape"},                           # of an envelope
     "src/app/bench/bench_cases.cpp": {"quaking_aspen", "lombardy_poplar", "small_pine",
                                       "weeping_willow"},                   # what is measured
     "src/app/bench/bench_scaling.cpp": {"quaking_aspen"},                  # what is measured

@@ -27,7 +27,7 @@ ParameterValues in_crown(const std::string& species, CrownUse use) {
                                                 {"levels", 2},
                                                 {"leaf_blos_num", 0},
                                                 {"crown_top", 1.1},
-                                                {"crown_base", 0.1},
+                                                {"crown_bottom", 0.1},
                                                 {"crown_radius_left", 0.5},
                                                 {"crown_radius_right", 0.2},
                                                 {"crown_rim_left", 0.3},
@@ -136,7 +136,7 @@ TEST(TreeCrown, EachNumberOfTheEnvelopeMovesTips) {
 TEST(TreeCrown, CutStemsStayInsideAndTheTrunkStandsBelow) {
   for (const CrownUse use : {CrownUse::cut, CrownUse::train}) {
     const ParameterValues values = but_with(in_crown("quaking_aspen", use), {{"levels", 3},
-                                                                             {"crown_base", 0.5},
+                                                                             {"crown_bottom", 0.5},
                                                                              {"base_size[0]", 0.1},
                                                                              {"crown_top", 0.8},
                                                                              {"leaf_blos_num", 20}});
@@ -149,13 +149,13 @@ TEST(TreeCrown, CutStemsStayInsideAndTheTrunkStandsBelow) {
         EXPECT_TRUE(
             crown.contains(point) ||
             (plant.stems.level[stem] == 0 && point.z < crown.shape().top_m.z && crown.is_under_top(point)) ||
-            (plant.stems.level[stem] == 0 && point.z <= crown.shape().base_m.z));
+            (plant.stems.level[stem] == 0 && point.z <= crown.shape().bottom_m.z));
       }
     for (const Vec3 leaf : use == CrownUse::train ? plant.leaves.position_m : std::vector<Vec3>())
       EXPECT_LT(crown.signed_distance_m(leaf), 0.1f);
     const std::vector<Vec3> trunk = trunk_of(plant);
-    EXPECT_GT(trunk.back().z, crown.shape().base_m.z);  // up into the crown
-    EXPECT_LT(trunk.back().z, crown.shape().top_m.z);   // and no further
+    EXPECT_GT(trunk.back().z, crown.shape().bottom_m.z);  // up into the crown
+    EXPECT_LT(trunk.back().z, crown.shape().top_m.z);     // and no further
   }
 }
 
@@ -208,7 +208,7 @@ RC_GTEST_PROP(TreeCrown, AllValuesOfItsRowsMakeAnEnvelope, ()) {
   }
   for (const float scale_m : {0.05f, 12.f, 400.f}) {
     const CrownEnvelope crown(crown_shape(weber_penn_parameters(values), scale_m));
-    RC_ASSERT(crown.shape().top_m.z > crown.shape().base_m.z);
+    RC_ASSERT(crown.shape().top_m.z > crown.shape().bottom_m.z);
   }
 }
 

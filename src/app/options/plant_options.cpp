@@ -70,7 +70,7 @@ void add_plant_options(CLI::App& command, PlantOptions& options) {
       "--prune-to", options.prune_to,
       "keep the plant inside box:cx,cy,cz,sx,sy,sz, ball:cx,cy,cz,r, cylinder:cx,cy,cz,r,h, "
       "mesh:FILE (metres), an expression such as \"union(ball(0,0,4, 2), box(0,0,1, 1,1,2))\" or "
-      "\"crown(top = 12, base = 3, radius = 4)\", or "
+      "\"crown(top = 12, bottom = 3, radius = 4)\", or "
       "FILE.lsys:NAME, a volume of an L-system; an L-system's own volume 'clip' becomes this one");
 }
 

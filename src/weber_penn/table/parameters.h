@@ -43,7 +43,7 @@ struct WeberPennParameters {
   float least_radius_mm = 5;  ///< in millimetres: not of the tree's size, as what is in metres is
   float crown_use = 0;
   float crown_top = 1, crown_top_x = 0, crown_top_y = 0;
-  float crown_base = 0.3f, crown_base_x = 0, crown_base_y = 0;
+  float crown_bottom = 0.3f, crown_bottom_x = 0, crown_bottom_y = 0;
   float crown_radius_right = 0.3f, crown_radius_back = 0.3f, crown_radius_left = 0.3f,
         crown_radius_front = 0.3f;
   float crown_rim_right = 0.4f, crown_rim_back = 0.4f, crown_rim_left = 0.4f, crown_rim_front = 0.4f;

@@ -124,7 +124,7 @@ TEST(Surroundings, FaultsAreOneLineWithTheirPlace) {
       {"volume clip = ball(0,0,0, 1-1)" + end, "test.lsys:1:15: ball: radius is 0"},
       {"volume clip = ball(0,0,0, 1/0)" + end, "test.lsys:1:27: '1/0' is no finite number"},
       {"volume clip = crown(top = 2-3, radius = 1)" + end,
-       "test.lsys:1:15: crown: top is -1, expected more than its base, 0"},
+       "test.lsys:1:15: crown: top is -1, expected more than its bottom, 0"},
       {"volume clip = crown(top = 2, radius = 1/0)" + end, "test.lsys:1:39: '1/0' is no finite number"},
       {"volume clip = ball(0,0,0, r)" + end, "test.lsys:1:27: 'r': got the unknown name 'r'"},
       {"volume clip = mesh(\"a.obj\")" + end, "test.lsys:1:21: got file \"a.obj\", expected none"},
