@@ -103,7 +103,8 @@ struct SpaceReader {
 std::vector<bool> written_rows(const SpaceReader& reader, const ParameterTable& table) {
   std::vector<bool> written;
   written.reserve(table.rows.size());
-  for (const ParameterInfo& row : table.rows) written.push_back(row.point < 0 && row.part_of.empty());
+  for (const ParameterInfo& row : table.rows)
+    written.push_back(row.point < 0 && row.part_of.empty() && !row.says_nothing_at_default);
   for (const toml::node& name : reader.array("parameters"))
     if (const auto row = table.find(name.value_or(std::string()))) written[*row] = true;
   return written;

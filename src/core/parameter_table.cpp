@@ -109,7 +109,8 @@ std::vector<bool> rows_in_use(const ParameterTable& table, std::span<const doubl
       part = part_of;
       has_part = part.empty() || values[table.index_of(part)] != 0;
     }
-    in_use[row] = has_part;
+    in_use[row] = has_part &&
+                  !(table.rows[row].says_nothing_at_default && values[row] == table.rows[row].default_value);
   }
   for (const CurveInfo& curve : table.curves)
     if (is_neutral(curve, values))

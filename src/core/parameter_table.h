@@ -48,6 +48,7 @@ struct ParameterInfo {
       {};  ///< means nothing where all these rows (full names) are 0; none: always means
   std::string part_of =
       {};  ///< of what some plants lack: the row (full name) that is 0 in those, also its own
+  bool says_nothing_at_default = false;  ///< a row that was added later and that most plants leave alone
   std::string mixed_with = {},
               mixed_by = {};         ///< of a choice: rows of a second choice, and of the share that one has
   RoleOfLevel role = {};             ///< what it is to a fit
@@ -110,9 +111,9 @@ struct ParameterTable {
 /// Whether the curve changes nothing.
 bool is_neutral(const CurveInfo& curve, std::span<const double> values);
 
-/// Rows that say something of the plant: all but those of neutral curves and those that are part of what it
-/// lacks. Only these are written to files and are columns of spaces, so a model can get new parts and its old
-/// plants stay as they are.
+/// Rows that say something of the plant: all but those of neutral curves, those that are part of what it
+/// lacks, and those that say nothing at their default. Only these are written to files and are columns of
+/// spaces, so a model can get new parts and its old plants stay as they are.
 std::vector<bool> rows_in_use(const ParameterTable& table, std::span<const double> values);
 
 /// Sets the row of this role, if there is one, to the valid value nearest to `value`. False where there is

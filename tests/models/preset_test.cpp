@@ -194,6 +194,13 @@ TEST(Preset, OfPartsThatATreeLacksOnlyWhatIsNotTheDefaultIsWritten) {
   EXPECT_THAT(preset_to_toml(preset), AllOf(HasSubstr("crown_use = \"train\""), HasSubstr("crown_top = 1 ")));
 }
 
+TEST(Preset, RowsThatSayNothingAtTheirDefaultAreWrittenElsewhere) {
+  Preset preset = load_preset("quaking_aspen");
+  EXPECT_THAT(preset_to_toml(preset), Not(HasSubstr("least_radius")));
+  preset.values[model_by_name(preset.model).table().index_of("least_radius")] = 2;
+  EXPECT_THAT(preset_to_toml(preset), HasSubstr("least_radius = 2 "));
+}
+
 TEST(Preset, GrowsWithItsSeedUnlessAnotherIsAskedFor) {
   Preset preset = load_preset("apple");
   const auto knots = [&](const PresetGrowth& growth) {

@@ -47,7 +47,6 @@ VARYING_KEYS = {"seconds", "evaluations_per_second", "embree_disagreement_pixels
 LATER_KEYS = {"plant", "labels", "resembles"}  # of summary.json, in no run when these were recorded; nor was tree.png, nor a preset's seed
 LATER_FILES = {"tree.png"}
 RECORDED_ROWS = 103  # of the parametric model's table
-LATER_ROWS = {"least_radius": 5}  # of the model's table, with their defaults: not of what was recorded
 HEX_DIGITS = 16
 
 
@@ -100,9 +99,6 @@ def json_content(path):
 def preset_content(path):
     preset = tomllib.loads(path.read_text())
     preset.pop("seed", None)
-    for name, default in LATER_ROWS.items():
-        if preset.get(name) == default:
-            preset.pop(name)
     if "description" in preset:
         preset["description"] = preset["description"].split(";")[0]  # then: what it needs beyond its species
     return canonical(preset)

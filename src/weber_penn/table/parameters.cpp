@@ -51,6 +51,7 @@ struct Facts {
   bool places = false;     ///< says how stems stand on their parents, or leaves on stems of the level above
   ForTrunkAndBranches<Needs> needs;  ///< rows of which one is not 0 where the values mean anything
   const char* part_of = "";
+  bool says_nothing_at_default = false;
   const ParameterCodec& (*codec)() = nullptr;
   ForTrunkAndBranches<Role> role;
   ForTrunkAndBranches<std::optional<double>> plain;
@@ -212,7 +213,8 @@ const Definition kDefinitions[] = {
    kOfCrown},
   {&P::crown_shape_below, "crown_shape_below", "1", {0.1, 20}, {0.5, 6}, kLog, kNumber, "", "", "how the crown bulges below its rim: 1 a cone, 2 an ellipsoid, under 1 hollow",
    kOfCrown},
-  {&P::least_radius_mm, "least_radius", "mm", {0, 1000}, {0.5, 20}, kLog, kNumber, "", "", "least radius of a branch at its base, where its parent is no thinner"},
+  {&P::least_radius_mm, "least_radius", "mm", {0, 1000}, {0.5, 20}, kLog, kNumber, "", "", "least radius of a branch at its base, where its parent is no thinner",
+   {.says_nothing_at_default = true}},
 };
 // clang-format on
 
@@ -315,6 +317,7 @@ ParameterInfo make_row(const Definition& definition, int level, float default_va
           .least_levels = least_levels_of(definition, level),
           .needs = needs_of(definition, level),
           .part_of = facts.part_of,
+          .says_nothing_at_default = facts.says_nothing_at_default,
           .mixed_with = facts.mixed_with,
           .mixed_by = facts.mixed_by,
           .role = role_of(definition, level),
