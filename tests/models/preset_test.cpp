@@ -21,6 +21,10 @@
 namespace espalier {
 namespace {
 
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
 namespace fs = std::filesystem;
 
 /// A folder with preset files that goes with its test.
@@ -147,13 +151,13 @@ TEST(PresetCurves, AreReadFromOneFourFiveOrSevenNumbers) {
 TEST(PresetCurves, AreWrittenWhereTheyChangeSomething) {
   const ParameterTable& table = model_by_name("weber_penn").table();
   Preset preset{"a", "", "weber_penn", table.defaults()};
-  EXPECT_THAT(preset_to_toml(preset), testing::Not(testing::HasSubstr("_along")));
+  EXPECT_THAT(preset_to_toml(preset), Not(HasSubstr("_along")));
   for (int point = 1; point <= 7; ++point)
     preset.values[table.index_of(fmt::format("radius_along[2].{}", point))] = 1.5;
-  EXPECT_THAT(preset_to_toml(preset), testing::HasSubstr("\n\"radius_along[2]\" = [1.5] "));
+  EXPECT_THAT(preset_to_toml(preset), HasSubstr("\n\"radius_along[2]\" = [1.5] "));
   preset.values[table.index_of("radius_along[2].4")] = 0.25;
   EXPECT_THAT(preset_to_toml(preset),
-              testing::HasSubstr("\n\"radius_along[2]\" = [1.5, 1.5, 1.5, 0.25, 1.5, 1.5, 1.5] "));
+              HasSubstr("\n\"radius_along[2]\" = [1.5, 1.5, 1.5, 0.25, 1.5, 1.5, 1.5] "));
 }
 
 TEST(PresetCurves, BadOnesAreRefused) {
@@ -222,7 +226,7 @@ TEST(Preset, ASeedThatIsNoneIsRefused) {
       load_preset(folder.write("seed.toml", text));
       FAIL() << seed;
     } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr("seed.toml:2: key 'seed': got "));
+      EXPECT_THAT(error.what(), HasSubstr("seed.toml:2: key 'seed': got "));
     }
   }
 }
@@ -247,8 +251,8 @@ TEST(Preset, ADemonstrationThatIsNeitherTrueNorFalseIsRefused) {
       load_preset(folder.write("wrong.toml", text));
       FAIL() << value;
     } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr("wrong.toml:2: key 'demonstration': got "));
-      EXPECT_THAT(error.what(), testing::HasSubstr("expected true or false"));
+      EXPECT_THAT(error.what(), HasSubstr("wrong.toml:2: key 'demonstration': got "));
+      EXPECT_THAT(error.what(), HasSubstr("expected true or false"));
     }
   }
 }
@@ -327,8 +331,8 @@ TEST(Preset, ACycleIsAnErrorThatNamesTheKey) {
     load_preset(b);
     FAIL() << "expected InputError";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("a.toml:1: key 'extends': got 'b.toml'"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("expected no cycle"));
+    EXPECT_THAT(error.what(), HasSubstr("a.toml:1: key 'extends': got 'b.toml'"));
+    EXPECT_THAT(error.what(), HasSubstr("expected no cycle"));
   }
 }
 
@@ -349,7 +353,7 @@ TEST_P(PresetFault, IsOneLineWithPlaceGotAndExpected) {
     FAIL() << "expected InputError";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), testing::StartsWith(file + ":2: " + GetParam().message));
-    EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("\n")));
+    EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
   }
 }
 
@@ -405,7 +409,7 @@ TEST_P(LsystemPresetFault, IsOneLineWithPlaceGotAndExpected) {
     FAIL() << "expected InputError";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), testing::StartsWith(file + ":" + GetParam().message));
-    EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("\n")));
+    EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
   }
 }
 
@@ -468,7 +472,7 @@ TEST(Preset, AModelOtherThanTheExtendedOneIsRefused) {
 TEST(Preset, NoModelAtAllIsRefused) {
   const PresetFolder folder;
   EXPECT_THAT(loading_error(folder.write("bad.toml", "flare = 1\n")),
-              testing::HasSubstr("got no key 'model' or 'extends', expected model = \"weber_penn\""));
+              HasSubstr("got no key 'model' or 'extends', expected model = \"weber_penn\""));
 }
 
 TEST(Preset, TheFaultOfAnExtendedFileIsNamedThere) {
