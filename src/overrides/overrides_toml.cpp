@@ -96,10 +96,10 @@ BranchCrown read_crown(const TomlSection& section) {
     const std::string of_several = each.name.substr(0, each.name.find('_'));
     const std::string& key = section.has(each.name) ? each.name : of_several;
     if (!section.has(key)) continue;
-    const double value = section.number(key);
+    const auto value = static_cast<float>(section.number(key));
     if (!(value >= each.lower && value <= each.upper))
       section.fail(key, fmt::format("a number from {:g} to {:g}", each.lower, each.upper));
-    *each.number = static_cast<float>(value);
+    *each.number = value;
   }
   return crown;
 }

@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"PositionBeyond", "[[branch]]\npath = \"0/1\"\nposition = 1.5\n", "from 0 to 1"},
         BadText{"CrownOfUnknownNumber", "[[branch]]\npath = \"0\"\ncrown = { radius_top = 1 }\n", "radius_"},
         BadText{"CrownOfNegativeRadius", "[[branch]]\npath = \"0\"\ncrown = { radius = -1 }\n",
-                "key 'radius': got -1, expected a number from 0.001 to 10"},
+                "radius: got -1, expected a number from 0.001 to 10"},
         BadText{"CrownOfNoRadius", "[[branch]]\npath = \"0\"\ncrown = { radius_up = nan }\n", "got nan"},
         BadText{"CrownWhoseRimIsBeyondItsTip", "[[branch]]\npath = \"0\"\ncrown = { rim_left = 1.2 }\n",
                 "from 0 to 1"},

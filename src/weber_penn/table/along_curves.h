@@ -16,8 +16,9 @@ struct AlongCurve {
   bool is_neutral = true;                                    ///< changes nothing; has no value then
   std::array<std::array<float, kPieces>, 4> coefficients{};  ///< [power of t][piece]
 
+  /// x that is no number, on a stem without length, is taken as 0.
   float at(float x) const {
-    const float u = std::clamp(x, 0.f, 1.f) * kPieces;
+    const float u = (x > 0 ? std::min(x, 1.f) : 0.f) * kPieces;
     const int piece = std::min(static_cast<int>(u), kPieces - 1);
     const float t = u - static_cast<float>(piece);
     const auto& c = coefficients;
