@@ -92,6 +92,44 @@ void refine_round(const FitTask& task, Seed seed, int threads, BranchRounds& sta
   for (Solution& copy : state.copies) copy = best;
 }
 
+namespace {
+
+/// The rows that any file names.
+std::vector<std::size_t> rows_of_all(const ParameterTable& table) {
+  const std::vector<bool> in_use = rows_in_use(table, table.defaults());
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < in_use.size(); ++row)
+    if (in_use[row]) rows.push_back(row);
+  return rows;
+}
+
+/// The model's defaults, but for these rows.
+ParameterValues defaults_but_for(const ParameterTable& table, const std::vector<std::size_t>& rows,
+                                 const ParameterValues& values_of_rows) {
+  ParameterValues values = table.defaults();
+  for (std::size_t i = 0; i < rows.size(); ++i) values[rows[i]] = values_of_rows[i];
+  return values;
+}
+
+}  // namespace
+
+BranchRounds stored(BranchRounds state, const ParameterTable& table) {
+  const std::vector<std::size_t> rows = rows_of_all(table);
+  for (Solution& copy : state.copies) {
+    ParameterValues values;
+    values.reserve(rows.size());
+    for (const std::size_t row : rows) values.push_back(copy.values[row]);
+    if (defaults_but_for(table, rows, values) == copy.values) copy.values = std::move(values);
+  }
+  return state;
+}
+
+void restore(const ParameterTable& table, BranchRounds& state) {
+  const std::vector<std::size_t> rows = rows_of_all(table);
+  for (Solution& copy : state.copies)
+    if (copy.values.size() == rows.size()) copy.values = defaults_but_for(table, rows, copy.values);
+}
+
 std::string branch_rounds_to_json(const BranchRounds& state, const std::string& model) {
   nlohmann::ordered_json json = {{"model", model},
                                  {"rounds", state.rounds},

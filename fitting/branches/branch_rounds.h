@@ -46,6 +46,12 @@ BranchRounds begin_branch_rounds(const FitTask& task, const std::vector<Solution
 /// Makes one round on all copies; after each round of all orders, all go on from the best.
 void refine_round(const FitTask& task, Seed seed, int threads, BranchRounds& state);
 
+/// As files hold it: values without the rows that a plant of the model's defaults does not use, where the
+/// copies do not use them either. So files of versions before those rows are as they would be now.
+BranchRounds stored(BranchRounds state, const ParameterTable& table);
+/// The inverse: what is not stored is the model's default.
+void restore(const ParameterTable& table, BranchRounds& state);
+
 /// The state as text, and back. Throws InputError naming `source` where the text is no such state.
 std::string branch_rounds_to_json(const BranchRounds& state, const std::string& model);
 BranchRounds branch_rounds_from_json(const std::string& text, const std::string& source);

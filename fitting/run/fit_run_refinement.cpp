@@ -17,10 +17,10 @@ void FitRun::refine() {
   if (state_.stopped_by == FitStop::interrupted || state_.stopped_by == FitStop::target_fitness) return;
   state_.stopped_by.reset();
   state_.best = scorer_.best();
-  const auto reached = reached_rounds(record_, directory_, options_);
-  if (reached)
+  if (auto reached = reached_rounds(record_, directory_, options_)) {
+    restore(task_.model->table(), *reached);
     go_on_from(*reached);
-  else {
+  } else {
     const std::vector<Solution> starts = refinement_starts();
     stage_ = starts.size() > 1 ? FitStage::tracing : FitStage::branches;
     state_.branches = begin_branch_rounds(task_, starts, scorer_.evaluations());

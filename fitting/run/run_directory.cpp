@@ -195,8 +195,9 @@ void write_run_directory(const fs::path& directory, RunState& state) {
   if (state.full_size) write_full_size(directory, *state.full_size);
   write_file_atomically(directory / "best.toml", best_to_toml(state));
   if (!state.branches.copies.empty())
-    write_file_atomically(directory / kBranchesFile,
-                          branch_rounds_to_json(state.branches, state.record.model));
+    write_file_atomically(
+        directory / kBranchesFile,
+        branch_rounds_to_json(stored(state.branches, state.task.model->table()), state.record.model));
   write_history(directory, state);
   write_archive(directory, state);
   if (state.sheet) write_png(directory / "tree.png", *state.sheet);

@@ -238,6 +238,19 @@ TEST(BranchRounds, GoOnFromWhatIsWrittenWithTheSameBits) {
   EXPECT_TRUE(same(unbroken, resumed));
 }
 
+TEST(BranchRounds, FilesHoldNoRowsThatTheirTreesDoNotUse) {
+  const ParameterTable& table = model_by_name("weber_penn").table();
+  BranchRounds state;
+  state.copies.push_back({.values = load_preset("silver_birch").values});
+  state.copies.push_back({.values = state.copies[0].values});
+  state.copies[1].values[table.index_of("crown_top")] = 0.7;  // of a crown that is off, but not the default
+  BranchRounds back = stored(state, table);
+  EXPECT_LT(back.copies[0].values.size(), table.rows.size());
+  EXPECT_EQ(back.copies[1].values, state.copies[1].values);
+  restore(table, back);
+  for (const std::size_t copy : {0, 1}) EXPECT_EQ(back.copies[copy].values, state.copies[copy].values);
+}
+
 std::string with_metrics(const std::string& metrics) {
   return R"({"rounds":1,"steps":1,"search_evaluations":1,"search_limit":1,"lanes":[{"values":[],"plant_seed":1,
              "score":0.5,"overrides":""}],"history":[{"steps":1,"seconds":1,"score":0.5,"metrics":)" +
