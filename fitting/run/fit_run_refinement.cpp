@@ -64,13 +64,9 @@ std::vector<Solution> FitRun::refinement_starts() {
   return starts;
 }
 
-/// The state that a run which was broken off had reached, and its rows of the trace. Rows that the table has
-/// got since have their defaults.
+/// The state that a run which was broken off had reached, and its rows of the trace.
 void FitRun::go_on_from(const BranchRounds& reached) {
   state_.branches = reached;
-  const ParameterValues defaults = task_.model->table().defaults();
-  for (Solution& copy : state_.branches.copies)
-    while (copy.values.size() < defaults.size()) copy.values.push_back(defaults[copy.values.size()]);
   for (const RoundRow& row : reached.history) add_to_trace(row);
   if (reached.history.empty()) return;
   seconds_before_ = reached.history.back().seconds;

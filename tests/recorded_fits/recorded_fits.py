@@ -46,7 +46,6 @@ DIGESTS = ["fitted", "drawn"]
 VARYING_KEYS = {"seconds", "evaluations_per_second", "embree_disagreement_pixels"}
 LATER_KEYS = {"plant", "labels", "resembles"}  # of summary.json, in no run when these were recorded; nor was tree.png, nor a preset's seed
 LATER_FILES = {"tree.png"}
-RECORDED_ROWS = 103  # of the parametric model's table
 HEX_DIGITS = 16
 
 
@@ -79,8 +78,6 @@ def as_recorded(data):
     kept = {key: as_recorded(value) for key, value in data.items()}
     if isinstance(kept.get("metrics"), dict):
         kept["metrics"] = [kept["metrics"][name] for name in RECORDED_METRICS]
-    if "plant_seed" in kept and "values" in kept:  # of a tree: one number a row
-        kept["values"] = kept["values"][:RECORDED_ROWS]
     for part, names in LATER_METRICS.items():
         for name in names if part in kept else []:
             kept[part].pop(name, None)
