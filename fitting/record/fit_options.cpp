@@ -360,7 +360,7 @@ std::vector<FitOption> options_of_the_search() {
        .key = "search.free",
        .option = "free",
        .member = [](FitRecord& record) -> std::vector<std::string>& { return record.search.free; },
-       .help = "parameters to search: a,b[1],curve*,default; of a curve as 4 numbers length_along[1]~4",
+       .help = "parameters to search: a,b[1],curve*,default; of a curve as 4 numbers: curve~4",
        .note = "none: the default set of the model",
        .experiment_list = "spaces"},
       {.field = "search.fixed",

@@ -122,19 +122,28 @@ std::string parameters_as_text(const ParameterTable& table) {
   return text;
 }
 
+namespace {
+
+/// How a preset writes one; nothing for models without curves.
+std::string curves_in_words(const ParameterTable& table) {
+  if (table.curves.empty()) return "";
+  return fmt::format(" A curve has 1, 4, 5 or 7 numbers at each level:\n`\"{}\" = [0.5, 1, 1, 0.2]`.",
+                     table.curves.front().full_name());
+}
+
+}  // namespace
+
 std::string parameters_as_markdown(const ParameterTable& table) {
   std::string text = fmt::format(
       "# Parameters of the model `{0}`\n\n"
       "Made by `espalier params --model {0} --format markdown`. A name with levels is an array in a preset,\n"
-      "one value for each level of branching, the trunk first. A curve has 1, 4, 5 or 7 numbers at each "
-      "level:\n"
-      "`\"length_along[1]\" = [0.5, 1, 1, 0.2]`. *Search* is where a fit looks unless told\n"
+      "one value for each level of branching, the trunk first.{1} *Search* is where a fit looks unless told\n"
       "otherwise; *free* says which levels it changes by default, *role* what it is to a fit. Lengths in "
       "metres,\n"
       "angles in degrees.\n\n"
       "| parameter | unit | valid | search | scale | default | free | paper | role | meaning |\n"
       "|---|---|---|---|---|---|---|---|---|---|\n",
-      table.model);
+      table.model, curves_in_words(table));
   for (const RowGroup& group : group_rows(table)) text += markdown_line(group);
   return text;
 }
