@@ -61,11 +61,12 @@ void ChildPlacer::begin(const GrowingStem& stem, const Segment& segment) {
   const int segments = segment_count(p_, stem.level);
   stem_ = &stem;
   segment_ = &segment;
-  steps_ = segment_count(stem, p_) / segments;
-  const int walked = static_cast<int>(segment.z_start * static_cast<float>(segments * steps_) + 0.5f);
+  steps_ = stem.axis ? segment_count(stem, p_) / segments : 1;
+  const auto walked =
+      steps_ > 1 ? static_cast<int>(std::lround(segment.z_start * static_cast<float>(segments * steps_))) : 0;
   step_ = walked % steps_;
   if (step_ > 0) return;
-  last_segment_ = walked + steps_ == segments * steps_;
+  last_segment_ = steps_ > 1 ? walked + steps_ == segments * steps_ : segment.z_end >= 1;
   const float grown_part = 1 - static_cast<float>(stem.first_segment) / static_cast<float>(segments);
   const float share = bears_ == Bears::leaves ? grown_part : stem.child_share;
   if (!spacing_.is_even()) {
