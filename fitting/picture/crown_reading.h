@@ -1,7 +1,6 @@
 // The asymmetric crown envelope (environment/crown_envelope.h) that a picture shows: its top, its base, the
 // rim on both sides, and how it bulges. All relative to the tree's height, from its foot, x to the right.
 #pragma once
-#include <array>
 #include <string>
 
 #include <espalier/fitting/picture/picture_reading.h>

@@ -35,24 +35,25 @@ std::vector<Ray> rays() {
   return rays;
 }
 
-void reach(benchmark::State& state, float shape_above, float shape_below) {
+/// One question after the other: `ask` gets the envelope and a ray.
+template <typename Ask>
+void ask_all(benchmark::State& state, float shape_above, float shape_below, const Ask& ask) {
   const CrownEnvelope envelope = crown(shape_above, shape_below);
   const std::vector<Ray> all = rays();
   std::size_t i = 0;
-  for (auto _ : state) {
-    const Ray& ray = all[i++ % all.size()];
-    benchmark::DoNotOptimize(envelope.reach_m(ray.from_m, ray.direction));
-  }
+  for (auto _ : state) benchmark::DoNotOptimize(ask(envelope, all[i++ % all.size()]));
+}
+
+void reach(benchmark::State& state, float shape_above, float shape_below) {
+  ask_all(state, shape_above, shape_below, [](const CrownEnvelope& envelope, const Ray& ray) {
+    return envelope.reach_m(ray.from_m, ray.direction);
+  });
 }
 
 void contains(benchmark::State& state, float shape_above, float shape_below) {
-  const CrownEnvelope envelope = crown(shape_above, shape_below);
-  const std::vector<Ray> all = rays();
-  std::size_t i = 0;
-  for (auto _ : state) {
-    const Ray& ray = all[i++ % all.size()];
-    benchmark::DoNotOptimize(envelope.contains(ray.from_m + 3 * ray.direction));
-  }
+  ask_all(state, shape_above, shape_below, [](const CrownEnvelope& envelope, const Ray& ray) {
+    return envelope.contains(ray.from_m + 3 * ray.direction);
+  });
 }
 
 void build(benchmark::State& state) {

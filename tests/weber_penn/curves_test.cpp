@@ -76,11 +76,30 @@ double share_below(const std::vector<double>& numbers, double x) {
   return below / whole;
 }
 
+struct BeforeAndAfter {
+  Plant before, after;
+};
+
+/// The plant without a curve, and with it.
+BeforeAndAfter grow_with(ParameterValues values, const std::string& curve,
+                         const std::vector<double>& numbers) {
+  Plant before = grow(values);
+  set_along(values, curve, numbers);
+  return {std::move(before), grow(values)};
+}
+
+/// All stems on the trunk are still there, moved to where kHump has the share below them that was there
+/// before.
+void expect_spread_by_hump(const BeforeAndAfter& trees) {
+  const auto& [before, after] = trees;
+  ASSERT_EQ(before.stems.path_key, after.stems.path_key);
+  for (std::size_t stem = 1; stem < before.stems.size(); ++stem)
+    EXPECT_NEAR(share_below(kHump, above_base(base(after, stem).z)), above_base(base(before, stem).z), 2e-3)
+        << stem;
+}
+
 TEST(LengthAlong, ScalesStemsByTheirPlaceAndMovesNone) {
-  ParameterValues values = plain_tree();
-  const Plant before = grow(values);
-  set_along(values, "length_along[1]", kHump);
-  const Plant after = grow(values);
+  const auto [before, after] = grow_with(plain_tree(), "length_along[1]", kHump);
   ASSERT_EQ(before.stems.path_key, after.stems.path_key);
   ASSERT_GT(before.stems.size(), 30u);
   for (std::size_t stem = 1; stem < before.stems.size(); ++stem) {
@@ -103,14 +122,7 @@ TEST(LengthAlong, OfOneNumberIsAFactorOfLength) {
 }
 
 TEST(DensityAlong, KeepsTheCountAndMovesStemsAsItsIntegralSays) {
-  ParameterValues values = plain_tree();
-  const Plant before = grow(values);
-  set_along(values, "density_along[1]", kHump);
-  const Plant after = grow(values);
-  ASSERT_EQ(before.stems.path_key, after.stems.path_key);
-  for (std::size_t stem = 1; stem < before.stems.size(); ++stem)
-    EXPECT_NEAR(share_below(kHump, above_base(base(after, stem).z)), above_base(base(before, stem).z), 2e-3)
-        << stem;
+  expect_spread_by_hump(grow_with(plain_tree(), "density_along[1]", kHump));
 }
 
 TEST(DensityAlong, KeepsTheCountOnATrunkOfManySegments) {
@@ -136,22 +148,14 @@ TEST(DensityAlong, SpreadsWhorlsAndOppositeBranches) {
   for (const double branch_dist : {1.0, 3.0}) {
     ParameterValues values = plain_tree();
     set(values, "branch_dist[1]", branch_dist);
-    const Plant before = grow(values);
-    set_along(values, "density_along[1]", kHump);
-    const Plant after = grow(values);
-    ASSERT_EQ(before.stems.path_key, after.stems.path_key);
-    for (std::size_t stem = 1; stem < before.stems.size(); ++stem)
-      EXPECT_NEAR(share_below(kHump, above_base(base(after, stem).z)), above_base(base(before, stem).z), 2e-3)
-          << branch_dist << " " << stem;
+    SCOPED_TRACE(branch_dist);
+    expect_spread_by_hump(grow_with(values, "density_along[1]", kHump));
   }
 }
 
 TEST(DownAngleAlong, IsAddedByPlace) {
   const std::vector<double> offsets{-30, 0, 40, 10};
-  ParameterValues values = plain_tree();
-  const Plant before = grow(values);
-  set_along(values, "down_angle_along[1]", offsets);
-  const Plant after = grow(values);
+  const auto [before, after] = grow_with(plain_tree(), "down_angle_along[1]", offsets);
   ASSERT_EQ(before.stems.path_key, after.stems.path_key);
   const auto angle_deg = [](const Plant& plant, std::size_t stem) {
     return degrees(std::acos(heading(plant, stem).z));
@@ -213,9 +217,7 @@ TEST(BendAlong, BendsAddUpToTheSide) {
 TEST(RadiusAlong, IsAFactorOnRadiiAndMovesNothing) {
   ParameterValues values = table().defaults();
   set(values, "levels", 1);
-  const Plant before = grow(values);
-  set_along(values, "radius_along[0]", kHump);
-  const Plant after = grow(values);
+  const auto [before, after] = grow_with(values, "radius_along[0]", kHump);
   ASSERT_EQ(before.knots.point_m, after.knots.point_m);
   for (std::size_t knot = 0; knot + 1 < before.knots.size(); ++knot) {
     const double z = static_cast<double>(knot) / static_cast<double>(before.knots.size() - 1);
@@ -224,10 +226,7 @@ TEST(RadiusAlong, IsAFactorOnRadiiAndMovesNothing) {
 }
 
 TEST(LeafScaleAlong, ScalesLeavesByTheirPlaceAndMovesNone) {
-  ParameterValues values = leafy_trunk();
-  const Plant before = grow(values);
-  set_along(values, "leaf_scale_along", kHump);
-  const Plant after = grow(values);
+  const auto [before, after] = grow_with(leafy_trunk(), "leaf_scale_along", kHump);
   ASSERT_EQ(before.leaves.position_m, after.leaves.position_m);
   ASSERT_GT(before.leaves.size(), 100u);
   for (std::size_t leaf = 0; leaf < before.leaves.size(); ++leaf) {
@@ -238,10 +237,7 @@ TEST(LeafScaleAlong, ScalesLeavesByTheirPlaceAndMovesNone) {
 }
 
 TEST(LeafDensityAlong, KeepsTheCountAndMovesLeavesAsItsIntegralSays) {
-  ParameterValues values = leafy_trunk();
-  const Plant before = grow(values);
-  set_along(values, "leaf_density_along", kHump);
-  const Plant after = grow(values);
+  const auto [before, after] = grow_with(leafy_trunk(), "leaf_density_along", kHump);
   ASSERT_EQ(before.leaves.size(), after.leaves.size());
   for (std::size_t leaf = 0; leaf < before.leaves.size(); ++leaf)
     EXPECT_NEAR(share_below(kHump, above_base(after.leaves.position_m[leaf].z)),

@@ -25,6 +25,12 @@ TEST(AlongCurve, StaysAtItsEndsBeyondThem) {
   EXPECT_EQ(along.at(1.5f), along.at(1));
 }
 
+/// On a stem without length a place is 0 / 0.
+TEST(AlongCurve, OfNoNumberIsThatOfTheStart) {
+  const AlongCurve along = make_along_curve(kNumbers, 1);
+  EXPECT_EQ(along.at(NAN), along.at(0));
+}
+
 TEST(AlongCurve, OfOneNumberIsThatNumber) {
   const AlongCurve along = make_along_curve(make_curve(std::array{0.7}).numbers, 1);
   for (int i = 0; i <= 100; ++i) EXPECT_EQ(along.at(i * 1e-2f), 0.7f) << i;
