@@ -2,6 +2,7 @@
 #   bin/espalier                 the program
 #   include/espalier/…           the headers of all rooms but the program's own, and espalier.h, which includes most
 #   lib/libespalier_*.a          a library a room
+#   lib/espalier                 the module of the program that reads and writes pictures
 #   lib/cmake/Espalier           for find_package(Espalier): espalier::espalier, and one target a room
 #   share/espalier               what the program reads while it runs (src/core/data_path.h), laid out as in the source
 include(CMakePackageConfigHelpers)
@@ -30,6 +31,7 @@ add_library(espalier::espalier ALIAS espalier_library)
 set_target_properties(espalier_library PROPERTIES EXPORT_NAME espalier)
 espalier_room_targets(libraries ${library_rooms})
 target_link_libraries(espalier_library INTERFACE ${libraries})
+target_link_options(espalier_library INTERFACE LINKER:-u,espalier_openimageio_codecs)  # not from a module
 install(TARGETS espalier_library EXPORT EspalierTargets)
 install(FILES src/espalier.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/espalier)
 

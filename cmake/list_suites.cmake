@@ -12,7 +12,7 @@ foreach(suite IN LISTS suites)
   # The same properties in every run; another seed explores others.
   string(APPEND tests
     "add_test([==[${PREFIX}.${suite}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${suite}*]==])\n"
-    "set_tests_properties([==[${PREFIX}.${suite}]==] PROPERTIES TIMEOUT 300 ENVIRONMENT RC_PARAMS=seed=1 "
+    "set_tests_properties([==[${PREFIX}.${suite}]==] PROPERTIES TIMEOUT 900 ENVIRONMENT RC_PARAMS=seed=1 "
     "SKIP_REGULAR_EXPRESSION [==[\\[  PASSED  \\] 0 tests]==])\n")
 endforeach()
 string(REPLACE ".]==]" "]==]" tests "${tests}")

@@ -15,7 +15,7 @@ namespace espalier {
 namespace {
 
 constexpr int kMeasuredPx = 256;  ///< side of the picture that wood is counted in
-constexpr int kTilePx = 320, kMarginPx = 8, kTitlePx = 20;
+constexpr int kMaxTilePx = 320, kMinTilePx = 120, kMarginPx = 8, kTitlePx = 20;
 constexpr int kSamples = 9;  ///< rays a pixel of the sheet
 
 /// The extent of the plant across a direction that looks at it from `azimuth_deg`.
@@ -35,22 +35,29 @@ Plant without_trunks(Plant plant) {
   return plant;
 }
 
+/// Side of a tile: a mask of 32 pixels is not worth one of 320.
+int tile_px(const TargetView& target) {
+  return std::clamp(5 * target.target.mask().width_px() / 2, kMinTilePx, kMaxTilePx);
+}
+
 /// The target and its labels, as large as a tile.
 Picture target_tile(const TargetView& target) {
+  const int side_px = tile_px(target);
   const Picture labels = label_picture(target.target.mask(), target.labels);
-  Picture tile(kTilePx, kTilePx);
-  for (int y = 0; y < kTilePx; ++y)
-    for (int x = 0; x < kTilePx; ++x)
-      tile.at(x, y) = labels.at(x * labels.width_px / kTilePx, y * labels.height_px / kTilePx);
+  Picture tile(side_px, side_px);
+  for (int y = 0; y < side_px; ++y)
+    for (int x = 0; x < side_px; ++x)
+      tile.at(x, y) = labels.at(x * labels.width_px / side_px, y * labels.height_px / side_px);
   return tile;
 }
 
 /// The plant as the target's camera sees it, from another side.
 Picture shaded_tile(const Plant& plant, const TargetView& target, const View& view) {
-  const float metres_per_px =
-      target.metres_per_px * static_cast<float>(target.target.mask().width_px()) / kTilePx;
+  const int side_px = tile_px(target);
+  const float metres_per_px = target.metres_per_px * static_cast<float>(target.target.mask().width_px()) /
+                              static_cast<float>(side_px);
   return render_shaded(plant,
-                       frame_base({0, 0, 0}, view, metres_per_px, kTilePx, kTilePx, base_row_px(kTilePx)),
+                       frame_base({0, 0, 0}, view, metres_per_px, side_px, side_px, base_row_px(side_px)),
                        {.samples_per_px = kSamples});
 }
 
@@ -80,14 +87,16 @@ Picture plant_sheet(const Plant& plant, const TargetView& target, const View& fr
                         {"front", from(0, 0)},
                         {"side", from(90, 0)},
                         {"three quarters", from(45, 15)}};
+  const int side_px = tile_px(target);
   ChartLayout layout;
   float left = kMarginPx;
   for (const Tile& tile : tiles) {
-    layout.labels.push_back({{left + kTilePx / 2.0f, kTitlePx / 2.0f}, tile.title, TextAnchor::middle});
+    layout.labels.push_back(
+        {{left + static_cast<float>(side_px) / 2, kTitlePx / 2.0f}, tile.title, TextAnchor::middle});
     layout.images.push_back({{left, kTitlePx}, tile.picture, {}});
-    left += kTilePx + kMarginPx;
+    left += static_cast<float>(side_px + kMarginPx);
   }
-  return layout_to_picture(layout, static_cast<int>(left), kTitlePx + kTilePx + kMarginPx);
+  return layout_to_picture(layout, static_cast<int>(left), kTitlePx + side_px + kMarginPx);
 }
 
 }  // namespace espalier

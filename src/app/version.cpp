@@ -1,4 +1,3 @@
-#include <OpenImageIO/imageio.h>
 #include <assimp/version.h>
 #include <embree3/rtcore_config.h>
 #include <fmt/format.h>
@@ -25,7 +24,7 @@ std::string program_version() { return ESPALIER_VERSION; }
 std::vector<LibraryVersion> library_versions() {
   return {
       {"Embree", RTC_VERSION_STRING},
-      {"OpenImageIO", OIIO_VERSION_STRING},
+      {"OpenImageIO", ESPALIER_OPENIMAGEIO_VERSION},
       {"NLopt", dotted(nlopt::version_major(), nlopt::version_minor(), nlopt::version_bugfix())},
       {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"Assimp", dotted(static_cast<int>(aiGetVersionMajor()), static_cast<int>(aiGetVersionMinor()),

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <espalier/app/main/program.h>
+#include <espalier/image/codecs/codecs.h>
 
 namespace espalier {
 
@@ -64,12 +65,14 @@ void redirect(int stream, const std::string& path, int flags) {
   end_run(run_program(static_cast<int>(arguments.size()), arguments.data()));
 }
 
-/// Answers each request with the wait status of its run, until the test program closes its end.
+/// Answers each request with the wait status of its run, until the test program closes its end. What a run
+/// would load for its first picture is loaded once, before the first of them.
 [[noreturn]] void serve(int connection) {
   std::string bytes(kLongestRequest, '\0');
   for (;;) {
     const ssize_t length = recv(connection, bytes.data(), bytes.size(), 0);
     if (length <= 0) _exit(0);
+    picture_codecs();
     const pid_t child = fork();
     if (child == 0) run_here(unpacked(bytes.substr(0, static_cast<std::size_t>(length))));
     int status = -1;
@@ -131,6 +134,25 @@ ProgramRun keep_output(Start start) {
   return run;
 }
 
+/// The real program through the shell.
+pid_t start_program(const std::string& command) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::string line = "exec '" ESPALIER_PROGRAM "' " + command + " >/dev/null 2>&1";
+    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+    _exit(127);
+  }
+  return child;
+}
+
+/// The wait status of a child after this signal.
+int signalled(pid_t child, int signal) {
+  kill(child, signal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return status;
+}
+
 }  // namespace
 
 ProgramRun run_shell(const std::string& command) {
@@ -150,17 +172,17 @@ ProgramRun run_espalier(const std::string& arguments) {
 }
 
 int run_and_signal(const std::string& command, int delay_ms, int signal) {
-  const pid_t child = fork();
-  if (child == 0) {
-    const std::string line = "exec '" ESPALIER_PROGRAM "' " + command + " >/dev/null 2>&1";
-    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-    _exit(127);
-  }
+  const pid_t child = start_program(command);
   usleep(static_cast<useconds_t>(delay_ms) * 1000);
-  kill(child, signal);
-  int status = 0;
-  waitpid(child, &status, 0);
-  return status;
+  return signalled(child, signal);
+}
+
+int run_and_interrupt(const std::string& command, const std::filesystem::path& begun, int delay_ms) {
+  constexpr int kPatience_ms = 60'000;
+  const pid_t child = start_program(command);
+  for (int waited = 0; waited < kPatience_ms && !std::filesystem::exists(begun); waited += 10) usleep(10'000);
+  usleep(static_cast<useconds_t>(delay_ms) * 1000);
+  return signalled(child, SIGINT);
 }
 
 void expect_one_clear_error(const ProgramRun& run) {

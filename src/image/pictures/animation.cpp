@@ -1,55 +1,51 @@
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
-#include <string_view>
-#include <vector>
-
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
+#include <espalier/image/codecs/codecs.h>
 #include <espalier/image/pictures/animation.h>
 
 namespace espalier {
 
+namespace {
+
+std::unique_ptr<AnimationOutput> open_gif(int width_px, int height_px, int frames, double frame_s) {
+  std::string error;
+  auto output = picture_codecs().encode_gif(width_px, height_px, frames, frame_s, error);
+  if (!output) throw InternalError("GIF encoding failed: " + error);
+  return output;
+}
+
+}  // namespace
+
 struct Animation::Encoder {
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory{bytes};
-  std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("gif");
-  std::vector<OIIO::ImageSpec> frames;
+  int width_px, height_px, frames;
+  std::unique_ptr<AnimationOutput> output;
   int added = 0;
 
   void check(bool succeeded) const {
-    if (!succeeded)
-      throw InternalError("GIF encoding failed: " + (output ? output->geterror() : OIIO::geterror()));
+    if (!succeeded) throw InternalError("GIF encoding failed: " + output->error());
   }
 };
 
-Animation::Animation(int width_px, int height_px, int frames, double frame_s)
-    : encoder_(std::make_unique<Encoder>()) {
+Animation::Animation(int width_px, int height_px, int frames, double frame_s) {
   ESPALIER_CHECK_EQ(frames >= 1 && frame_s >= 0.02, true);
-  OIIO::ImageSpec spec(width_px, height_px, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("FramesPerSecond", static_cast<float>(1 / frame_s));
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  encoder_->frames.assign(static_cast<std::size_t>(frames), spec);
-  encoder_->check(encoder_->output && encoder_->output->set_ioproxy(&encoder_->memory) &&
-                  encoder_->output->open("animation.gif", frames, encoder_->frames.data()));
+  encoder_ = std::make_unique<Encoder>(
+      Encoder{width_px, height_px, frames, open_gif(width_px, height_px, frames, frame_s)});
 }
 
 Animation::~Animation() = default;
 
 void Animation::add(const Picture& picture) {
-  const OIIO::ImageSpec& spec = encoder_->frames.front();
-  ESPALIER_CHECK_EQ(picture.width_px, spec.width);
-  ESPALIER_CHECK_EQ(picture.height_px, spec.height);
-  if (encoder_->added++ > 0)
-    encoder_->check(encoder_->output->open("animation.gif", spec, OIIO::ImageOutput::AppendSubimage));
-  encoder_->check(encoder_->output->write_image(OIIO::TypeDesc::UINT8, picture.pixels.data()));
+  static_assert(sizeof(Rgb) == 3);
+  ESPALIER_CHECK_EQ(picture.width_px, encoder_->width_px);
+  ESPALIER_CHECK_EQ(picture.height_px, encoder_->height_px);
+  ++encoder_->added;
+  encoder_->check(encoder_->output->add(reinterpret_cast<const std::uint8_t*>(picture.pixels.data())));
 }
 
 void Animation::write(const std::filesystem::path& path) {
-  ESPALIER_CHECK_EQ(encoder_->added, static_cast<int>(encoder_->frames.size()));
+  ESPALIER_CHECK_EQ(encoder_->added, encoder_->frames);
   encoder_->check(encoder_->output->close());
-  write_file_atomically(path,
-                        {reinterpret_cast<const char*>(encoder_->bytes.data()), encoder_->bytes.size()});
+  write_file_atomically(path, encoder_->output->bytes());
 }
 
 }  // namespace espalier

@@ -1,5 +1,3 @@
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -8,6 +6,7 @@
 #include <stdexcept>
 
 #include <espalier/core/error.h>
+#include <espalier/image/codecs/codecs.h>
 #include <espalier/image/pictures/claimed_size.h>
 #include <espalier/image/pictures/decode.h>
 #include <espalier/image/pictures/jpeg_end.h>
@@ -18,8 +17,6 @@ namespace espalier {
 namespace {
 
 namespace fs = std::filesystem;
-using OIIO::ImageInput;
-using OIIO::ImageSpec;
 
 constexpr double kMaxPixelsPerByte = 10'000;
 
@@ -37,12 +34,10 @@ void check_is_file(const fs::path& path) {
   if (is_jpeg_without_end(path)) throw_input_error("{}: is a JPEG that was cut off", path.string());
 }
 
-std::unique_ptr<ImageInput> open_picture(const fs::path& path) {
-  auto input = ImageInput::open(path.string());
-  if (!input) {
-    const std::string reason = first_line(OIIO::geterror());
-    throw_input_error("{}: is no picture that can be read ({})", path.string(), reason);
-  }
+std::unique_ptr<PictureInput> open_picture(const fs::path& path) {
+  std::string reason;
+  auto input = picture_codecs().open(path.string(), reason);
+  if (!input) throw_input_error("{}: is no picture that can be read ({})", path.string(), first_line(reason));
   return input;
 }
 
@@ -61,20 +56,20 @@ void check_size(const fs::path& path, int width_px, int height_px, int layers) {
                       width_px, height_px, bytes);
 }
 
-void check_size(const fs::path& path, const ImageSpec& spec) {
-  check_size(path, spec.width, spec.height, spec.depth);
-  if (spec.nchannels < 1 || spec.nchannels > 64)
-    throw_input_error("{}: has {} channels, expected 1 to 64", path.string(), spec.nchannels);
+void check_size(const fs::path& path, const PictureLayout& layout) {
+  check_size(path, layout.width_px, layout.height_px, layout.layers);
+  if (layout.channels < 1 || layout.channels > 64)
+    throw_input_error("{}: has {} channels, expected 1 to 64", path.string(), layout.channels);
 }
 
 /// Which channel of the file is red, green, blue and alpha (-1 where there is none).
-std::array<int, 4> find_channels(const ImageSpec& spec) {
-  const int alpha = spec.alpha_channel < spec.nchannels ? spec.alpha_channel : -1;
-  const int red = spec.channelindex("R"), green = spec.channelindex("G"), blue = spec.channelindex("B");
-  if (red >= 0 && green >= 0 && blue >= 0) return {red, green, blue, alpha};
-  const int colours = spec.nchannels - (alpha >= 0 ? 1 : 0);
+std::array<int, 4> find_channels(const PictureLayout& layout) {
+  const int alpha = layout.alpha;
+  if (layout.red >= 0 && layout.green >= 0 && layout.blue >= 0)
+    return {layout.red, layout.green, layout.blue, alpha};
+  const int colours = layout.channels - (alpha >= 0 ? 1 : 0);
   if (colours >= 3) return {0, 1, 2, alpha};
-  const int grey = alpha == 0 && spec.nchannels > 1 ? 1 : 0;
+  const int grey = alpha == 0 && layout.channels > 1 ? 1 : 0;
   return {grey, grey, grey, alpha};
 }
 
@@ -94,11 +89,11 @@ Rgba bounded(Rgba rgba) {
 /// Adds rows of a picture to the blocks of block_px × block_px pixels they fall in.
 class BlockAverage {
  public:
-  BlockAverage(const ImageSpec& spec, int block_px) : block_px_(block_px) {
-    picture_.source_width_px = spec.width;
-    picture_.source_height_px = spec.height;
-    picture_.width_px = spec.width / block_px;
-    picture_.height_px = spec.height / block_px;
+  BlockAverage(const PictureLayout& layout, int block_px) : block_px_(block_px) {
+    picture_.source_width_px = layout.width_px;
+    picture_.source_height_px = layout.height_px;
+    picture_.width_px = layout.width_px / block_px;
+    picture_.height_px = layout.height_px / block_px;
     picture_.pixels.assign(static_cast<std::size_t>(picture_.width_px) * picture_.height_px, Rgba{});
   }
 
@@ -122,30 +117,20 @@ class BlockAverage {
   DecodedPicture picture_;
 };
 
-/// Reads rows [begin, end), end exclusive; pictures of tiles are read a row of tiles at a time.
-bool read_rows(ImageInput& input, const ImageSpec& spec, int begin, int end, float* samples) {
-  if (spec.tile_width == 0)
-    return input.read_scanlines(0, 0, spec.y + begin, spec.y + end, spec.z, 0, spec.nchannels,
-                                OIIO::TypeDesc::FLOAT, samples);
-  return input.read_tiles(0, 0, spec.x, spec.x + spec.width, spec.y + begin, spec.y + end, spec.z, spec.z + 1,
-                          0, spec.nchannels, OIIO::TypeDesc::FLOAT, samples);
-}
-
-DecodedPicture read_pixels(ImageInput& input, const fs::path& path) {
-  const ImageSpec spec = input.spec();
-  const std::array<int, 4> channels = find_channels(spec);
-  const int chunk_rows = spec.tile_width == 0 ? 64 : spec.tile_height;
-  const int larger_side = std::max(spec.width, spec.height);
-  BlockAverage average(spec, (larger_side + kMaxDecodedSide - 1) / kMaxDecodedSide);
-  std::vector<float> samples(static_cast<std::size_t>(chunk_rows) * spec.width * spec.nchannels);
-  for (int begin = 0; begin < spec.height; begin += chunk_rows) {
-    const int end = std::min(begin + chunk_rows, spec.height);
-    const bool read = read_rows(input, spec, begin, end, samples.data());
-    if (!read || input.has_error())  // TIFF's reader returns true for rows that are not in the file
-      throw_input_error("{}: is damaged or cut off ({})", path.string(), first_line(input.geterror()));
+DecodedPicture read_pixels(PictureInput& input, const fs::path& path) {
+  const PictureLayout& layout = input.layout();
+  const std::array<int, 4> channels = find_channels(layout);
+  const int chunk_rows = layout.tile_rows == 0 ? 64 : layout.tile_rows;
+  const int larger_side = std::max(layout.width_px, layout.height_px);
+  BlockAverage average(layout, (larger_side + kMaxDecodedSide - 1) / kMaxDecodedSide);
+  std::vector<float> samples(static_cast<std::size_t>(chunk_rows) * layout.width_px * layout.channels);
+  for (int begin = 0; begin < layout.height_px; begin += chunk_rows) {
+    const int end = std::min(begin + chunk_rows, layout.height_px);
+    if (!input.read_rows(begin, end, samples.data()))
+      throw_input_error("{}: is damaged or cut off ({})", path.string(), first_line(input.error()));
     const float* pixel = samples.data();
     for (int y = begin; y < end; ++y)
-      for (int x = 0; x < spec.width; ++x, pixel += spec.nchannels) {
+      for (int x = 0; x < layout.width_px; ++x, pixel += layout.channels) {
         const Rgba rgba = pick_channels(pixel, channels);
         if (!std::all_of(rgba.begin(), rgba.end(), [](float value) { return std::isfinite(value); }))
           throw_input_error("{}: pixel ({}, {}) is not a finite number", path.string(), x, y);
@@ -182,9 +167,8 @@ DecodedPicture decode_picture(const fs::path& path) try {
   check_is_file(path);
   if (const auto claimed = claimed_size(path)) check_size(path, claimed->width_px, claimed->height_px, 1);
   const auto input = open_picture(path);
-  check_size(path, input->spec());
-  const int orientation = input->spec().get_int_attribute("Orientation", 1);
-  return turn_upright(read_pixels(*input, path), orientation);
+  check_size(path, input->layout());
+  return turn_upright(read_pixels(*input, path), input->layout().orientation);
 } catch (const std::bad_alloc&) {
   throw_input_error("{}: needs more memory than there is", path.string());
 } catch (const std::length_error&) {  // sizes that a reader did not check

@@ -1,10 +1,9 @@
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <string_view>
+#include <utility>
 
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
+#include <espalier/image/codecs/codecs.h>
 #include <espalier/image/pictures/picture.h>
 
 namespace espalier {
@@ -16,16 +15,10 @@ std::string encode_png(const std::filesystem::path& path, int width_px, int heig
                        const std::uint8_t* samples) {
   if (width_px < 1 || height_px < 1)
     throw_input_error("{}: a picture of {}×{} pixels cannot be written", path.string(), width_px, height_px);
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const auto output = OIIO::ImageOutput::create("png");
-  OIIO::ImageSpec spec(width_px, height_px, channels, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  if (!output || !output->set_ioproxy(&memory) || !output->open(path.filename().string(), spec) ||
-      !output->write_image(OIIO::TypeDesc::UINT8, samples) || !output->close())
-    throw InternalError("PNG encoding failed: " + (output ? output->geterror() : OIIO::geterror()));
-  return {bytes.begin(), bytes.end()};
+  EncodedPicture encoded =
+      picture_codecs().encode_png(path.filename().string(), width_px, height_px, channels, samples);
+  if (!encoded.error.empty()) throw InternalError(encoded.error);
+  return std::move(encoded.bytes);
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ TEST(FitCommand, AKilledRunIsValidAndResumesToTheUnbrokenRun) {
 TEST(FitCommand, CtrlCWritesTheResultAndTheRunRepeatsByItsCount) {
   const fs::path folder = fresh_folder("interrupt"), run = folder / "run";
   const std::string endless = "fit " + kSmall + "--seconds 1000 --out '" + run.string() + "'";
-  const int status = run_and_signal(endless, 2500, SIGINT);
+  const int status = run_and_interrupt(endless, run / "run.toml", 1500);
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0);
   const auto summary = nlohmann::json::parse(read_text_file(run / "summary.json"));

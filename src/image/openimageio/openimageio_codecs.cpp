@@ -1,0 +1,128 @@
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <utility>
+#include <vector>
+
+#include <espalier/image/openimageio/openimageio_codecs.h>
+
+namespace espalier {
+
+namespace {
+
+PictureLayout layout_of(const OIIO::ImageSpec& spec) {
+  return {.width_px = spec.width,
+          .height_px = spec.height,
+          .layers = spec.depth,
+          .channels = spec.nchannels,
+          .red = spec.channelindex("R"),
+          .green = spec.channelindex("G"),
+          .blue = spec.channelindex("B"),
+          .alpha = spec.alpha_channel < spec.nchannels ? spec.alpha_channel : -1,
+          .orientation = spec.get_int_attribute("Orientation", 1),
+          .tile_rows = spec.tile_width == 0 ? 0 : spec.tile_height};
+}
+
+class FileInput : public PictureInput {
+ public:
+  explicit FileInput(std::unique_ptr<OIIO::ImageInput> input)
+      : input_(std::move(input)), spec_(input_->spec()), layout_(layout_of(spec_)) {}
+
+  const PictureLayout& layout() const override { return layout_; }
+
+  bool read_rows(int begin, int end, float* samples) override {
+    const bool read =
+        spec_.tile_width == 0 ? read_scanlines(begin, end, samples) : read_tiles(begin, end, samples);
+    return read && !input_->has_error();  // TIFF's reader returns true for rows that are not in the file
+  }
+
+  std::string error() override { return input_->geterror(); }
+
+ private:
+  bool read_scanlines(int begin, int end, float* samples) {
+    return input_->read_scanlines(0, 0, spec_.y + begin, spec_.y + end, spec_.z, 0, spec_.nchannels,
+                                  OIIO::TypeDesc::FLOAT, samples);
+  }
+
+  bool read_tiles(int begin, int end, float* samples) {
+    return input_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, spec_.y + begin, spec_.y + end, spec_.z,
+                              spec_.z + 1, 0, spec_.nchannels, OIIO::TypeDesc::FLOAT, samples);
+  }
+
+  std::unique_ptr<OIIO::ImageInput> input_;
+  OIIO::ImageSpec spec_;
+  PictureLayout layout_;
+};
+
+class GifOutput : public AnimationOutput {
+ public:
+  GifOutput(int width_px, int height_px, int frames, double frame_s) {
+    OIIO::ImageSpec spec(width_px, height_px, 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("FramesPerSecond", static_cast<float>(1 / frame_s));
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    frames_.assign(static_cast<std::size_t>(frames), spec);
+  }
+
+  bool open() {
+    return output_ && output_->set_ioproxy(&memory_) &&
+           output_->open("animation.gif", static_cast<int>(frames_.size()), frames_.data());
+  }
+
+  bool add(const std::uint8_t* rgb) override {
+    if (added_++ > 0 && !output_->open("animation.gif", frames_.front(), OIIO::ImageOutput::AppendSubimage))
+      return false;
+    return output_->write_image(OIIO::TypeDesc::UINT8, rgb);
+  }
+
+  bool close() override { return output_->close(); }
+  std::string bytes() const override { return {bytes_.begin(), bytes_.end()}; }
+  std::string error() override { return output_ ? output_->geterror() : OIIO::geterror(); }
+
+ private:
+  std::vector<unsigned char> bytes_;
+  OIIO::Filesystem::IOVecOutput memory_{bytes_};
+  std::unique_ptr<OIIO::ImageOutput> output_ = OIIO::ImageOutput::create("gif");
+  std::vector<OIIO::ImageSpec> frames_;
+  int added_ = 0;
+};
+
+class OpenImageIoCodecs : public PictureCodecs {
+ public:
+  std::unique_ptr<PictureInput> open(const std::string& path, std::string& error) const override {
+    auto input = OIIO::ImageInput::open(path);
+    if (input) return std::make_unique<FileInput>(std::move(input));
+    error = OIIO::geterror();
+    return nullptr;
+  }
+
+  EncodedPicture encode_png(const std::string& name, int width_px, int height_px, int channels,
+                            const std::uint8_t* samples) const override {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto output = OIIO::ImageOutput::create("png");
+    OIIO::ImageSpec spec(width_px, height_px, channels, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (!output || !output->set_ioproxy(&memory) || !output->open(name, spec) ||
+        !output->write_image(OIIO::TypeDesc::UINT8, samples) || !output->close())
+      return {"", "PNG encoding failed: " + (output ? output->geterror() : OIIO::geterror())};
+    return {{bytes.begin(), bytes.end()}, ""};
+  }
+
+  std::unique_ptr<AnimationOutput> encode_gif(int width_px, int height_px, int frames, double frame_s,
+                                              std::string& error) const override {
+    auto output = std::make_unique<GifOutput>(width_px, height_px, frames, frame_s);
+    if (output->open()) return output;
+    error = output->error();
+    return nullptr;
+  }
+};
+
+}  // namespace
+
+}  // namespace espalier
+
+extern "C" const espalier::PictureCodecs* espalier_openimageio_codecs() {
+  static const espalier::OpenImageIoCodecs codecs;
+  return &codecs;
+}
