@@ -161,11 +161,23 @@ Preset load_chain(const PresetSource& source, Chain& chain) {
   return preset;
 }
 
+std::vector<std::string> names_of(std::span<const EmbeddedFile> files) {
+  std::vector<std::string> names;
+  names.reserve(files.size());
+  for (const EmbeddedFile& file : files) names.emplace_back(file.name);
+  return names;
+}
+
 }  // namespace
 
-std::vector<std::string> bundled_presets() {
-  std::vector<std::string> names;
-  for (const EmbeddedFile& file : embedded_presets()) names.emplace_back(file.name);
+std::vector<std::string> bundled_presets() { return names_of(embedded_presets()); }
+
+std::vector<std::string> bundled_designs() { return names_of(embedded_designs()); }
+
+std::vector<std::string> bundled_names() {
+  std::vector<std::string> names = bundled_presets();
+  const std::vector<std::string> designs = bundled_designs();
+  names.insert(names.end(), designs.begin(), designs.end());
   return names;
 }
 

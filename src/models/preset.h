@@ -23,8 +23,15 @@ struct Preset {
   bool demonstration = false;              ///< shows what the model can do, and is no species
 };
 
-/// Names of the bundled presets, sorted.
+/// Names of the bundled species, sorted.
 std::vector<std::string> bundled_presets();
+
+/// Names of the bundled plants that were designed branch by branch, sorted. They are no species: fits do not
+/// start from them, and they are not on the map.
+std::vector<std::string> bundled_designs();
+
+/// Both: what load_preset finds by name.
+std::vector<std::string> bundled_names();
 
 /// A bundled preset by name, or any preset by path. `extends` is followed. Throws InputError with
 /// file, line, key, got and expected for unknown keys, wrong types and values outside their bounds.

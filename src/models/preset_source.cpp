@@ -31,13 +31,14 @@ PresetSource file_source(const std::string& given, const fs::path& folder) {
 }  // namespace
 
 PresetSource find_preset(const std::string& name_or_path, const fs::path& folder) {
-  for (const EmbeddedFile& file : embedded_presets())
-    if (file.name == name_or_path) return bundled_source(file);
+  for (const auto& bundled : {embedded_presets(), embedded_designs()})
+    for (const EmbeddedFile& file : bundled)
+      if (file.name == name_or_path) return bundled_source(file);
   std::error_code ignored;
   if (looks_like_path(name_or_path) || fs::exists(folder / name_or_path, ignored))
     return file_source(name_or_path, folder);
   throw_input_error("got preset '{}', expected a path or a bundled preset, the closest is '{}'", name_or_path,
-                    closest_name(name_or_path, bundled_presets()));
+                    closest_name(name_or_path, bundled_names()));
 }
 
 }  // namespace espalier

@@ -1,5 +1,5 @@
 // Where the text of a preset comes from: bundled with the program (embedded when it is built, from
-// src/*/species/*.toml) or a file of the user's.
+// src/*/species/*.toml and src/*/designs/*.toml) or a file of the user's.
 #pragma once
 #include <filesystem>
 #include <span>
@@ -10,8 +10,11 @@
 
 namespace espalier {
 
-/// The bundled presets, sorted by name.
+/// The bundled species, sorted by name.
 std::span<const EmbeddedFile> embedded_presets();
+
+/// Plants that were designed branch by branch, sorted by name.
+std::span<const EmbeddedFile> embedded_designs();
 
 struct PresetSource {
   std::string label;             ///< what messages call it: the path as given, or "quaking_aspen (bundled)"

@@ -15,7 +15,7 @@ namespace espalier {
 namespace {
 
 void print_completion(const CLI::App& app, const std::string& shell) {
-  const std::vector<std::string> presets = bundled_presets();
+  const std::vector<std::string> presets = bundled_names();
   if (shell == "bash")
     fmt::print("{}", bash_completion(app, presets));
   else if (shell == "zsh")

@@ -28,11 +28,17 @@ std::string height_text(const Preset& preset) {
   return fmt::format("{} ± {} m", preset.values[*height], preset.values[*variation]);
 }
 
-void list_species() {
-  for (const std::string& name : bundled_presets()) {
+void list_presets(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
     const Preset preset = load_preset(name);
-    fmt::print("{:<16} {:<12} {}\n", name, height_text(preset), preset.description);
+    fmt::print("{:<19} {:<12} {}\n", name, height_text(preset), preset.description);
   }
+}
+
+void list_species() {
+  list_presets(bundled_presets());
+  fmt::print("\nDesigned branch by branch, and no species:\n");
+  list_presets(bundled_designs());
 }
 
 void check_file(const std::string& file) {
