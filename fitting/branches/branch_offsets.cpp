@@ -15,6 +15,12 @@ void set_or_drop(OverrideSet& set, const Override& entry, bool differs) {
 
 std::size_t count_numbers(const std::optional<DrawnAxis>& axis) { return axis ? 3 * axis->points.size() : 0; }
 
+std::size_t count_numbers(const OverrideSet& set) {
+  std::size_t count = set.overrides.size() + count_numbers(set.axis);
+  for (const ParameterOverride& entry : set.parameters) count += entry.numbers.size();
+  return count;
+}
+
 void read_override(const Override& entry, BranchOffsets& branch) {
   if (entry.quantity == Quantity::seed) branch.seed = static_cast<std::uint64_t>(entry.number);
   for (std::size_t i = 0; i < kBranchDimensions.size(); ++i) {
@@ -39,8 +45,8 @@ std::size_t count_numbers(const BranchOffsets& branch) {
 
 std::size_t count_numbers(const Overrides& overrides) {
   std::size_t count = 0;
-  for (const OverrideNode& node : overrides.nodes)
-    count += node.set.overrides.size() + count_numbers(node.set.axis);
+  for (const OverrideNode& node : overrides.nodes) count += count_numbers(node.set);
+  for (const RangeNode& node : overrides.ranges) count += count_numbers(node.set);
   return count;
 }
 
@@ -71,6 +77,8 @@ void write_offsets(const BranchOffsets& branch, Overrides& overrides) {
 
 Solution branch_alone(const BranchPath& path, const Solution& solution) {
   Solution one{solution.values, solution.plant_seed, {}, 1};
+  one.overrides.ranges = solution.overrides.ranges;
+  one.overrides.shared = solution.overrides.shared;
   for (const OverrideNode& node : solution.overrides.nodes) {
     const auto shared = static_cast<std::ptrdiff_t>(std::min(node.path.size(), path.size()));
     if (std::equal(node.path.begin(), node.path.begin() + shared, path.begin()))

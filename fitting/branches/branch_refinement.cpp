@@ -24,11 +24,18 @@ constexpr double kFirstSigma = 0.15;  ///< of the evolution strategy, and after 
 struct Branch : BranchOffsets {
   double sigma = kFirstSigma;
   Masks masks;
-  float too_far_m = 0;  ///< it reaches further than is plausible
+  float too_far_m = 0;        ///< it reaches further than is plausible
+  bool bears_locked = false;  ///< a locked branch stands on it, and is to stay as it is
 };
 
+/// What would change more of a locked branch than its place: such a branch may be turned and bent alone.
+bool is_held(std::size_t dimension, const Branch& branch) {
+  const Quantity quantity = kBranchDimensions[dimension].quantity;
+  return branch.bears_locked && (quantity == Quantity::length || quantity == Quantity::radius);
+}
+
 Branch read_branch(const BranchPath& path, const Overrides& overrides) {
-  return {read_offsets(path, overrides), kFirstSigma, {}, 0};
+  return {read_offsets(path, overrides), kFirstSigma, {}, 0, false};
 }
 
 /// Draws plants and parts of them.
@@ -37,11 +44,15 @@ class Drawer {
   explicit Drawer(const FitTask& task)
       : task_(task), has_leaves_(expects_leaves(task)), renderer_(task.make_renderer()) {}
 
-  bool draw(const Solution& solution, const PlantPart* part, Masks& masks) {
+  /// `are_locked` gets of each stem whether it is; null: nobody asks.
+  bool draw(const Solution& solution, const PlantPart* part, Masks& masks,
+            std::vector<bool>* are_locked = nullptr) {
     const ChangeGraph graph(solution.overrides);
+    std::vector<ChangeCursor> cursors;
     GrowthSettings growth = task_.growth;
     growth.changes = &graph;
     growth.only_part = part;
+    if (are_locked) growth.stem_cursors = &cursors;
     plant_.clear();
     const std::size_t views = task_.views.size();
     masks.resize(has_leaves_ ? 2 * views : views);
@@ -52,6 +63,11 @@ class Drawer {
       if (has_leaves_) masks[views + i].reset(camera.width_px, camera.height_px);
       if (grown)
         draw_view(*renderer_, plant_, {&camera, &masks[i], has_leaves_ ? &masks[views + i] : nullptr});
+    }
+    if (are_locked) {
+      are_locked->assign(plant_.stems.size(), false);
+      for (std::size_t stem = 0; stem < cursors.size(); ++stem)
+        (*are_locked)[stem] = cursors[stem].is_locked();
     }
     return grown;
   }
@@ -110,31 +126,52 @@ class Refinement {
   }
 
   /// The order of a branch is the length of its path: stems that split off a trunk are of order 1, as are its
-  /// children. Removed ones are found by their overrides.
+  /// children. Removed ones are found by their overrides. Locked ones, and what is on them, stay as they are.
   void find_branches() {
     Masks all;
-    drawer_.draw(solution_, nullptr, all);
+    std::vector<bool> are_locked;
+    drawer_.draw(solution_, nullptr, all, &are_locked);
     fixed_ = all;
     for (Mask& mask : fixed_) mask.clear();
     const auto length = static_cast<std::size_t>(settings_.order) + 1;
-    std::vector<BranchPath> above;
+    std::vector<PlantPart> fixed;
+    std::vector<BranchPath> locked;
     const Plant& plant = drawer_.plant();
     for (std::size_t stem = 0; stem < plant.stems.size(); ++stem) {
       const BranchPath path = path_of(plant, stem);
-      if (path.size() == length) branches_.push_back(read_branch(path, solution_.overrides));
-      if (path.size() < length) above.push_back(path);
+      if (path.size() == length && are_locked[stem])
+        fixed.push_back({path});
+      else if (path.size() == length)
+        branches_.push_back(read_branch(path, solution_.overrides));
+      if (path.size() < length) fixed.push_back({path, true});
+      if (path.size() > length && are_locked[stem]) locked.push_back(path);
     }
+    const ChangeGraph graph(solution_.overrides);
     for (const OverrideNode& node : solution_.overrides.nodes)
-      if (node.path.size() == length && removes(node))
+      if (node.path.size() == length && removes(node) && !is_locked(node.path, graph))
         branches_.push_back(read_branch(node.path, solution_.overrides));
-    draw_all(above);
+    for (Branch& branch : branches_) branch.bears_locked = is_below_any(branch.path, locked);
+    draw_all(fixed);
   }
 
-  void draw_all(const std::vector<BranchPath>& above) {
+  /// Of a branch that is not there, so that it has no position.
+  static bool is_locked(const BranchPath& path, const ChangeGraph& graph) {
+    ChangeCursor cursor(&graph);
+    for (const std::uint32_t part : path) cursor = cursor.child(part, -1);
+    return cursor.is_locked();
+  }
+
+  static bool is_below_any(const BranchPath& path, const std::vector<BranchPath>& others) {
+    return std::any_of(others.begin(), others.end(), [&](const BranchPath& other) {
+      return std::equal(path.begin(), path.end(), other.begin(),
+                        other.begin() + static_cast<std::ptrdiff_t>(path.size()));
+    });
+  }
+
+  void draw_all(const std::vector<PlantPart>& fixed) {
     if (branches_.empty()) return;
     Masks masks;
-    for (const BranchPath& path : above) {
-      const PlantPart part{path, true};
+    for (const PlantPart& part : fixed) {
       drawer_.draw(solution_, &part, masks);
       join(fixed_, masks);
     }
@@ -167,7 +204,7 @@ class Refinement {
 
   Branch mutated(const Branch& branch) {
     Branch child = branch;
-    if (draws_.chance(branch.removed ? kBranchStep.returns : kBranchStep.removes)) {
+    if (!branch.bears_locked && draws_.chance(branch.removed ? kBranchStep.returns : kBranchStep.removes)) {
       child.removed = !child.removed;
       if (child.removed) return freedom_.price > 0 ? removed_alone(child) : child;
       if (child.axis) return child;  // where it was
@@ -176,7 +213,8 @@ class Refinement {
             clamped(i, freedom_.share * kBranchStep.return_spread * draws_.normal(), freedom_.share);
       return child;
     }
-    if (draws_.chance(kBranchStep.reseeds) && task_.model->can_change(Quantity::seed)) {
+    if (!branch.bears_locked && draws_.chance(kBranchStep.reseeds) &&
+        task_.model->can_change(Quantity::seed)) {
       child.seed = 1 + draws_.below(1'000'000);
       return child;
     }
@@ -190,7 +228,7 @@ class Refinement {
     }
     const bool all = draws_.chance(kBranchStep.moves_all);
     for (std::size_t i = 0; i < child.at.size(); ++i)
-      if (!is_idle(i, child) && (all || draws_.chance(kBranchStep.moves_each)))
+      if (!is_idle(i, child) && !is_held(i, child) && (all || draws_.chance(kBranchStep.moves_each)))
         child.at[i] = moved(i, child.at[i], freedom_.share * child.sigma * draws_.normal());
     return child;
   }
@@ -228,6 +266,7 @@ class Refinement {
   /// An offset or the seed, whichever is drawn; the model gives it again what it gives.
   void forget_one(Branch& branch) {
     const std::size_t i = draws_.below(branch.at.size() + 1);
+    if (i == branch.at.size() ? branch.bears_locked : is_held(i, branch)) return;
     if (i < branch.at.size())
       branch.at[i] = 0;
     else

@@ -2,7 +2,8 @@
 // (length, place along the parent, angles, curvature, radius, and other random numbers) by a (1+1) evolution
 // strategy. A step grows and draws that branch alone and joins it to the stored silhouette of all the rest,
 // so it costs a small part of an evaluation. Beyer & Schwefel 2002 (Evolution strategies), §2: success rule
-// of Rechenberg.
+// of Rechenberg. Locked branches stay as they are, with all on them; what bears one may turn and bend with
+// it.
 #pragma once
 #include <espalier/fitting/branches/solution.h>
 #include <espalier/fitting/task/fit_task.h>

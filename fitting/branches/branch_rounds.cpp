@@ -146,7 +146,8 @@ std::string branch_rounds_to_json(const BranchRounds& state, const std::string& 
   return json.dump(1) + "\n";
 }
 
-BranchRounds branch_rounds_from_json(const std::string& text, const std::string& source) {
+BranchRounds branch_rounds_from_json(const std::string& text, const ParameterTable& table,
+                                     const std::string& source) {
   try {
     const nlohmann::json json = nlohmann::json::parse(text);
     BranchRounds state{.rounds = json.at("rounds"),
@@ -160,7 +161,7 @@ BranchRounds branch_rounds_from_json(const std::string& text, const std::string&
       copy.plant_seed = from.at("plant_seed");
       copy.score = from.at("score");
       const toml::table overrides = parse_toml(from.at("overrides").get<std::string>(), source);
-      read_overrides({overrides, source}, copy.overrides);
+      read_overrides({overrides, source}, table, copy.overrides);
       state.copies.push_back(std::move(copy));
     }
     if (json.contains("history"))

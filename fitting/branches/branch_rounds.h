@@ -52,8 +52,10 @@ BranchRounds stored(BranchRounds state, const ParameterTable& table);
 /// The inverse: what is not stored is the model's default.
 void restore(const ParameterTable& table, BranchRounds& state);
 
-/// The state as text, and back. Throws InputError naming `source` where the text is no such state.
+/// The state as text, and back; `table` is the model's. Throws InputError naming `source` where the text is
+/// no such state.
 std::string branch_rounds_to_json(const BranchRounds& state, const std::string& model);
-BranchRounds branch_rounds_from_json(const std::string& text, const std::string& source);
+BranchRounds branch_rounds_from_json(const std::string& text, const ParameterTable& table,
+                                     const std::string& source);
 
 }  // namespace espalier

@@ -6,6 +6,7 @@
 #include <espalier/fitting/branches/branch_tracing.h>
 #include <espalier/image/reading/medial_axes.h>
 #include <espalier/image/reading/roots.h>
+#include <espalier/overrides/change_graph.h>
 
 namespace espalier {
 
@@ -108,8 +109,19 @@ class Tracer {
 
 }  // namespace
 
+namespace {
+
+/// A traced tree is a new one, in which nothing stays as it was.
+bool has_locks(const Overrides& overrides) {
+  const auto locks = [&](const auto& node) { return resolved_lock(node.set, overrides).value_or(false); };
+  return std::any_of(overrides.nodes.begin(), overrides.nodes.end(), locks) ||
+         std::any_of(overrides.ranges.begin(), overrides.ranges.end(), locks);
+}
+
+}  // namespace
+
 Solution trace_branches(const FitTask& task, const TracingSettings& settings, const Solution& start) {
-  if (!task.model->has_branch_paths()) return start;
+  if (!task.model->has_branch_paths() || has_locks(start.overrides)) return start;
   const Mask& mask = task.views[0].target.mask();
   const auto shortest_px = static_cast<float>(settings.shortest * mask.height_px());
   const std::vector<MedialAxis> axes = medial_axes(without_roots(mask), shortest_px);

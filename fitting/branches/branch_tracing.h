@@ -16,7 +16,8 @@ struct TracingSettings {
 
 /// The traced tree, with `start`'s leaves and bark, and its score. `start` itself where the model's table
 /// does not say by roles how long and how thick a trunk is (tree_scale, and trunk_ratio or trunk_radius), or
-/// the mask has no axes. Only the first view is traced.
+/// the mask has no axes, and where branches of it are locked, as a traced tree has no branch of it. Only the
+/// first view is traced.
 Solution trace_branches(const FitTask& task, const TracingSettings& settings, const Solution& start);
 
 }  // namespace espalier

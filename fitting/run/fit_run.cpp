@@ -15,8 +15,9 @@ constexpr double kRefreshSeconds = 3;   ///< the directory is at most this old, 
 constexpr double kRefreshShare = 0.02;  ///< of the time, at most, is spent writing the directory
 
 /// A search that refinement had followed ends where it ended then.
-long evaluation_limit(const FitRecord& record, const fs::path& directory, const FitExecution& options) {
-  const auto reached = reached_rounds(record, directory, options);
+long evaluation_limit(const FitRecord& record, const FitTask& task, const fs::path& directory,
+                      const FitExecution& options) {
+  const auto reached = reached_rounds(record, task, directory, options);
   return reached ? reached->search_evaluations : record.budget.evaluations;
 }
 
@@ -27,9 +28,10 @@ EvaluationLog open_log(const fs::path& directory, const Replay& replay) {
 
 }  // namespace
 
-std::optional<BranchRounds> reached_rounds(const FitRecord& record, const fs::path& directory,
-                                           const FitExecution& options) {
-  std::optional<BranchRounds> reached = options.resume ? read_branch_rounds(directory) : std::nullopt;
+std::optional<BranchRounds> reached_rounds(const FitRecord& record, const FitTask& task,
+                                           const fs::path& directory, const FitExecution& options) {
+  std::optional<BranchRounds> reached =
+      options.resume ? read_branch_rounds(directory, task.model->table()) : std::nullopt;
   if (reached && reached->search_limit != record.budget.evaluations) reached.reset();
   return reached;
 }
@@ -54,7 +56,7 @@ FitRun::FitRun(const FitRecord& record, const FitTask& task, const FitPlan& plan
       scorer_(
           plant_scorer_, task.model->table(), log_,
           replay_.on_batch ? static_cast<long>(log_.logged().size())
-                           : evaluation_limit(record, directory, options),
+                           : evaluation_limit(record, task, directory, options),
           [this] { return seconds(); }, [this](const ScoredBatch& batch) { on_scored(batch); }),
       renderer_(task.make_renderer()),
       given_overrides_(task.overrides) {}

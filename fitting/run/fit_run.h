@@ -24,7 +24,8 @@ namespace espalier {
 inline constexpr long kUnlimited = 1'000'000'000;
 
 /// The refinement that a run to be resumed had begun, unless its search is now to go further.
-std::optional<BranchRounds> reached_rounds(const FitRecord& record, const std::filesystem::path& directory,
+std::optional<BranchRounds> reached_rounds(const FitRecord& record, const FitTask& task,
+                                           const std::filesystem::path& directory,
                                            const FitExecution& options);
 
 /// The one that the caller brought along, or the record's by name.

@@ -17,7 +17,7 @@ void FitRun::refine() {
   if (state_.stopped_by == FitStop::interrupted || state_.stopped_by == FitStop::target_fitness) return;
   state_.stopped_by.reset();
   state_.best = scorer_.best();
-  if (auto reached = reached_rounds(record_, directory_, options_)) {
+  if (auto reached = reached_rounds(record_, task_, directory_, options_)) {
     restore(task_.model->table(), *reached);
     go_on_from(*reached);
   } else {

@@ -148,11 +148,11 @@ Seed best_seed(const RunState& state) {
   return state.branches.copies.empty() ? state.task.plant_seeds.front() : state.branches.best().plant_seed;
 }
 
-std::optional<BranchRounds> read_branch_rounds(const fs::path& directory) {
+std::optional<BranchRounds> read_branch_rounds(const fs::path& directory, const ParameterTable& table) {
   const fs::path file = directory / kBranchesFile;
   std::error_code error;
   if (!fs::exists(file, error)) return std::nullopt;
-  return branch_rounds_from_json(read_file(file), file.string());
+  return branch_rounds_from_json(read_file(file), table, file.string());
 }
 
 void check_new_directory(const fs::path& directory) {

@@ -55,7 +55,8 @@ const Overrides& best_overrides(const RunState& state);
 Seed best_seed(const RunState& state);
 
 /// The refinement that a run in the directory had reached; none where it had not begun.
-std::optional<BranchRounds> read_branch_rounds(const std::filesystem::path& directory);
+std::optional<BranchRounds> read_branch_rounds(const std::filesystem::path& directory,
+                                               const ParameterTable& table);
 
 /// Throws InputError unless `directory` is missing or empty, and not a file.
 void check_new_directory(const std::filesystem::path& directory);

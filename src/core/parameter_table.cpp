@@ -135,6 +135,25 @@ double in_own_units(const ParameterTable& table, double length_m, const Paramete
   return unit ? length_m / values[*unit] : length_m;
 }
 
+std::vector<std::size_t> rows_of_key(const ParameterTable& table, std::string_view key) {
+  if (const auto row = table.find(key)) return {*row};
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    if (table.rows[i].name == key && table.rows[i].point < 0) rows.push_back(i);
+  if (!rows.empty()) return rows;
+  for (const char component : {'x', 'y', 'z'}) {
+    const auto row = table.find(fmt::format("{}_{}", key, component));
+    if (!row) return {};
+    rows.push_back(*row);
+  }
+  return rows;
+}
+
+double nearest_valid_value(const ParameterInfo& row, double value) {
+  if (!(value > row.lower)) return row.lower;
+  return std::min(is_whole(row) ? std::round(value) : value, row.upper);
+}
+
 std::string describe_valid_values(const ParameterInfo& row) {
   if (row.scale == Scale::choice && !row.choices.empty()) return describe_choices(row);
   return fmt::format("a {} {}..{}", is_whole(row) ? "whole number" : "number", row.lower, row.upper);

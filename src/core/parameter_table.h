@@ -27,6 +27,9 @@ enum class FlagSides {
   unrelated      ///< two measures that have nothing in common
 };
 
+/// Of a row that no branch can have for itself, as the whole plant has one; of one that all can.
+inline constexpr int kNoBranch = -1, kAnyBranch = 1'000'000;
+
 struct ParameterInfo {
   std::string name;                           ///< without the level: "curve_v"
   int level = -1;                             ///< level of branching 0..3, or -1 for the whole plant
@@ -50,8 +53,10 @@ struct ParameterInfo {
       {};  ///< of what some plants lack: the row (full name) that is 0 in those, also its own
   bool says_nothing_at_default = false;  ///< a row that was added later and that most plants leave alone
   std::string mixed_with = {},
-              mixed_by = {};         ///< of a choice: rows of a second choice, and of the share that one has
-  RoleOfLevel role = {};             ///< what it is to a fit
+              mixed_by = {};  ///< of a choice: rows of a second choice, and of the share that one has
+  RoleOfLevel role = {};      ///< what it is to a fit
+  int deepest_branch =
+      kNoBranch;  ///< branches from the trunk, 0, to this level can have a value of their own
   std::optional<double> plain = {};  ///< its value in a plain tree, whose stems are straight and all alike
   std::string symbol;                ///< the paper's name, where it has another one
   std::string help;                  ///< one line
@@ -125,6 +130,14 @@ void scale_plant(const ParameterTable& table, double factor, ParameterValues& va
 
 /// A length in the units of a plant's lengths: metres, unless a row says how many make a unit of the model's.
 double in_own_units(const ParameterTable& table, double length_m, const ParameterValues& values);
+
+/// The rows that one key of a file sets, in the order of its array: the levels of "curve_v", the components
+/// of "tropism" (tropism_x, _y, _z); one row for "g_scale", "curve_v[2]" or "length_along[1].3"; none where
+/// the key is unknown. The rows of a curve go together by its name (find_curve).
+std::vector<std::size_t> rows_of_key(const ParameterTable& table, std::string_view key);
+
+/// The valid value that is nearest to `value`, rounded where it must be whole; of NaN the least.
+double nearest_valid_value(const ParameterInfo& row, double value);
 
 /// What a message expects of a value: "a whole number 1..40", "one of off, on (or 0..1)".
 std::string describe_valid_values(const ParameterInfo& row);

@@ -2,6 +2,8 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <espalier/models/preset.h>
 #include <espalier/plant/plant.h>
@@ -20,5 +22,9 @@ struct PresetGrowth {
 /// Throws InputError, which opens with `name`, where the tree would be larger than growth allows, or where
 /// its model is asked for steps and has none.
 Plant grow_preset(const Preset& preset, const std::string& name, const PresetGrowth& growth = {});
+
+/// How many stems of the preset's tree each of its overrides is of (count_branches,
+/// overrides/overrides_tree.h). Throws InputError as grow_preset does.
+std::vector<std::size_t> count_overridden(const Preset& preset, const std::string& name);
 
 }  // namespace espalier

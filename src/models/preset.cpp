@@ -87,8 +87,22 @@ Preset load_base(const toml::table& document, const PresetSource& source, Chain&
   return base;
 }
 
+/// A node of the preset, of one branch or of several.
+struct AnyNode {
+  BranchPattern pattern;
+  const OverrideSet& set;
+};
+
+std::vector<AnyNode> all_nodes(const Overrides& overrides) {
+  std::vector<AnyNode> nodes;
+  nodes.reserve(overrides.nodes.size() + overrides.ranges.size());
+  for (const OverrideNode& node : overrides.nodes) nodes.push_back({as_pattern(node.path), node.set});
+  for (const RangeNode& node : overrides.ranges) nodes.push_back({node.pattern, node.set});
+  return nodes;
+}
+
 /// Where the overrides of this path stand in a document, or the document alone for those of a preset below.
-std::string place_of(const BranchPath& path, const toml::table& document, const PresetSource& source) {
+std::string place_of(const BranchPattern& path, const toml::table& document, const PresetSource& source) {
   const toml::array* branches = document["branch"].as_array();
   if (branches)
     for (const toml::node& branch : *branches)
@@ -108,20 +122,20 @@ void check_abilities(const Preset& preset, const Model& model, const std::string
 }
 
 /// Throws for overrides, also shared ones, that would have no effect. A seed of 0 asks for none.
-void check_quantities(const OverrideNode& node, const Preset& preset, const Model& model,
+void check_quantities(const AnyNode& node, const Preset& preset, const Model& model,
                       const toml::table& document, const PresetSource& source) {
   for (const Override& entry : resolved_overrides(node.set, preset.overrides))
     if (!model.can_change(entry.quantity) && !(entry.quantity == Quantity::seed && entry.number == 0))
       throw_input_error("{}: {}: got one for branch {}, expected none: model '{}' cannot change it",
-                        place_of(node.path, document, source), quantity_name(entry.quantity),
-                        to_string(node.path), preset.model);
+                        place_of(node.pattern, document, source), quantity_name(entry.quantity),
+                        to_string(node.pattern), preset.model);
 }
 
-void check_crown(const OverrideNode& node, const Preset& preset, const Model& model,
-                 const toml::table& document, const PresetSource& source) {
+void check_crown(const AnyNode& node, const Preset& preset, const Model& model, const toml::table& document,
+                 const PresetSource& source) {
   if (resolved_crown(node.set, preset.overrides) && !model.has_branch_crowns())
     throw_input_error("{}: crown: got one for branch {}, expected none: model '{}' has no crowns of branches",
-                      place_of(node.path, document, source), to_string(node.path), preset.model);
+                      place_of(node.pattern, document, source), to_string(node.pattern), preset.model);
 }
 
 /// Throws for paths that no plant of these values can have; those of too few children are dormant.
@@ -129,18 +143,17 @@ void check_branches(const Preset& preset, const Model& model, const toml::table&
                     const PresetSource& source) {
   check_abilities(preset, model, source.label);
   const BranchLimits limits = model.branch_limits(preset.values);
-  for (const OverrideNode& node : preset.overrides.nodes) {
+  for (const AnyNode& node : all_nodes(preset.overrides)) {
     check_quantities(node, preset, model, document, source);
     check_crown(node, preset, model, document, source);
-    const auto levels = std::count_if(node.path.begin(), node.path.end(),
-                                      [](std::uint32_t part) { return part < kFirstSplit; });
-    if (levels > limits.levels)
+    if (const int levels = level_of(node.pattern) + 1; levels > limits.levels)
       throw_input_error("{}: path: got '{}' of {} levels, expected at most {}",
-                        place_of(node.path, document, source), to_string(node.path), levels, limits.levels);
-    if (node.path.front() >= limits.trunks)
+                        place_of(node.pattern, document, source), to_string(node.pattern), levels,
+                        limits.levels);
+    if (node.pattern.front().first >= limits.trunks)
       throw_input_error("{}: path: got '{}' on trunk {}, expected a trunk below {}",
-                        place_of(node.path, document, source), to_string(node.path), node.path.front(),
-                        limits.trunks);
+                        place_of(node.pattern, document, source), to_string(node.pattern),
+                        node.pattern.front().first, limits.trunks);
   }
 }
 
@@ -154,7 +167,7 @@ Preset load_chain(const PresetSource& source, Chain& chain) {
   preset.demonstration = read_demonstration(document, source.label);  // what extends one need not be one
   const Model& model = model_by_name(preset.model);
   read_parameters(document, source.label, model.table(), kPresetKeys, preset.values);
-  read_overrides({document, source.label}, preset.overrides);
+  read_overrides({document, source.label}, model.table(), preset.overrides);
   if (document.contains(kGrownIntoKey))
     preset.grown_into = read_grown_into({document, source.label}, source.folder);
   check_branches(preset, model, document, source);

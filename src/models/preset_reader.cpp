@@ -85,20 +85,6 @@ void read_key(std::string_view key, const toml::node& node, const std::string& s
 
 }  // namespace
 
-std::vector<std::size_t> rows_of_key(const ParameterTable& table, std::string_view key) {
-  if (const auto row = table.find(key)) return {*row};
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < table.rows.size(); ++i)
-    if (table.rows[i].name == key && table.rows[i].point < 0) rows.push_back(i);
-  if (!rows.empty()) return rows;
-  for (const char component : {'x', 'y', 'z'}) {
-    const auto row = table.find(fmt::format("{}_{}", key, component));
-    if (!row) return {};
-    rows.push_back(*row);
-  }
-  return rows;
-}
-
 void read_parameters(const toml::table& document, const std::string& source, const ParameterTable& table,
                      std::span<const std::string> other_keys, ParameterValues& values) {
   for (const auto& [toml_key, node] : document) {

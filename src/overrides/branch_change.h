@@ -26,18 +26,35 @@ enum class Quantity : std::uint8_t {
 };
 inline constexpr std::size_t kRelativeQuantities = 8;  ///< those that factors and offsets apply to
 
-struct Modification {
-  float replaced_by = std::numeric_limits<float>::quiet_NaN();  ///< NaN: not replaced
-  float factor = 1, offset = 0;
+/// How an entry changes what is inherited.
+enum class Relation : std::uint8_t { value, factor, offset };
 
-  float apply(float generated) const {
+template <typename Number>
+struct ModificationOf {
+  Number replaced_by = std::numeric_limits<Number>::quiet_NaN();  ///< NaN: not replaced
+  Number factor = 1, offset = 0;
+
+  Number apply(Number generated) const {
     return (std::isnan(replaced_by) ? generated : replaced_by) * factor + offset;
   }
   bool changes_nothing() const { return std::isnan(replaced_by) && factor == 1 && offset == 0; }
 };
 
+using Modification = ModificationOf<float>;
+
+/// What one entry alone does.
+template <typename Number>
+ModificationOf<Number> modification(Relation relation, Number number) {
+  ModificationOf<Number> result;
+  if (relation == Relation::value) result.replaced_by = number;
+  if (relation == Relation::factor) result.factor = number;
+  if (relation == Relation::offset) result.offset = number;
+  return result;
+}
+
 /// First `inherited`, then `own`; a replacement forgets what was before.
-inline Modification combined(const Modification& inherited, const Modification& own) {
+template <typename Number>
+ModificationOf<Number> combined(const ModificationOf<Number>& inherited, const ModificationOf<Number>& own) {
   if (!std::isnan(own.replaced_by)) return own;
   return {inherited.replaced_by, inherited.factor * own.factor, inherited.offset * own.factor + own.offset};
 }

@@ -1,4 +1,6 @@
+// The walk along the graph, and what sets amount to with what they share; change_graph_builder.cpp makes it.
 #include <algorithm>
+#include <map>
 
 #include <espalier/core/error.h>
 #include <espalier/overrides/change_graph.h>
@@ -14,32 +16,8 @@ const OverrideSet& shared_set(const std::string& name, const Overrides& override
   return found->second;
 }
 
-void apply(const Override& entry, BranchChange& change) {
-  const auto number = static_cast<float>(entry.number);
-  if (entry.quantity == Quantity::seed) {
-    change.seed = static_cast<std::uint64_t>(entry.number);
-  } else if (entry.quantity == Quantity::removed) {
-    change.removed = entry.number != 0;
-  } else {
-    Modification own;
-    if (entry.relation == Relation::value) own.replaced_by = number;
-    if (entry.relation == Relation::factor) own.factor = number;
-    if (entry.relation == Relation::offset) own.offset = number;
-    change[entry.quantity] = combined(change[entry.quantity], own);
-  }
-}
+}  // namespace
 
-bool changes_anything(const BranchChange& change) {
-  return !std::all_of(change.modifications.begin(), change.modifications.end(),
-                      [](const Modification& m) { return m.changes_nothing(); });
-}
-
-/// A seed renews all that lies below its branch, and what is removed has nothing below it.
-bool is_inherited(const Override& entry) {
-  return !entry.is_private && entry.quantity != Quantity::seed && entry.quantity != Quantity::removed;
-}
-
-/// The set, what it shares, what that shares, and so on.
 std::vector<const OverrideSet*> sharing_chain(const OverrideSet& set, const Overrides& overrides) {
   std::vector<const OverrideSet*> chain{&set};
   std::vector<std::string> names;
@@ -53,14 +31,25 @@ std::vector<const OverrideSet*> sharing_chain(const OverrideSet& set, const Over
   return chain;
 }
 
-}  // namespace
-
 std::vector<Override> resolved_overrides(const OverrideSet& set, const Overrides& overrides) {
   const std::vector<const OverrideSet*> chain = sharing_chain(set, overrides);
   OverrideSet result;
   for (auto each = chain.rbegin(); each != chain.rend(); ++each)
     for (const Override& entry : (*each)->overrides) set_override(result, entry);
   return result.overrides;
+}
+
+std::vector<RowOverride> resolved_rows(const OverrideSet& set, const Overrides& overrides) {
+  const std::vector<const OverrideSet*> chain = sharing_chain(set, overrides);
+  std::map<std::uint32_t, RowOverride> by_row;
+  for (auto each = chain.rbegin(); each != chain.rend(); ++each)
+    for (const ParameterOverride& entry : (*each)->parameters)
+      for (const auto& [row, number] : entry.rows)
+        by_row[row] = {row, entry.relation, number, entry.is_private};
+  std::vector<RowOverride> rows;
+  rows.reserve(by_row.size());
+  for (const auto& [row, entry] : by_row) rows.push_back(entry);
+  return rows;
 }
 
 const DrawnAxis* resolved_axis(const OverrideSet& set, const Overrides& overrides) {
@@ -75,61 +64,28 @@ std::optional<BranchCrown> resolved_crown(const OverrideSet& set, const Override
   return std::nullopt;
 }
 
-ChangeGraph::ChangeGraph(const Overrides& overrides) : nodes_(1) {
-  std::vector<std::vector<Override>> own(1);
-  for (const OverrideNode& node : overrides.nodes) {
-    const auto index = static_cast<std::size_t>(add_path(node.path));
-    own.resize(nodes_.size());
-    own[index] = resolved_overrides(node.set, overrides);
-    if (const DrawnAxis* axis = resolved_axis(node.set, overrides))
-      nodes_[index].axis = StemAxis{make_axis(axis->points), axis->frame};
-    nodes_[index].crown = resolved_crown(node.set, overrides);
-  }
-  combine(0, -1, own);
-}
-
-/// Nodes on the way that say nothing themselves are made too.
-std::int32_t ChangeGraph::add_path(const BranchPath& path) {
-  std::int32_t at = 0;
-  for (const std::uint32_t index : path) {
-    auto& children = nodes_[static_cast<std::size_t>(at)].children;
-    const auto place = std::lower_bound(children.begin(), children.end(), std::pair{index, -1});
-    if (place != children.end() && place->first == index) {
-      at = place->second;
-      continue;
-    }
-    const auto made = static_cast<std::int32_t>(nodes_.size());
-    children.insert(place, {index, made});
-    nodes_.emplace_back();
-    at = made;
-  }
-  return at;
-}
-
-void ChangeGraph::combine(std::int32_t index, std::int32_t inherits,
-                          const std::vector<std::vector<Override>>& own) {
-  Node& node = nodes_[static_cast<std::size_t>(index)];
-  if (inherits >= 0) node.change = node.handed_on = nodes_[static_cast<std::size_t>(inherits)].handed_on;
-  for (const Override& entry : own[static_cast<std::size_t>(index)]) {
-    apply(entry, node.own);
-    apply(entry, node.change);
-    if (is_inherited(entry)) apply(entry, node.handed_on);
-  }
-  node.hands_on = changes_anything(node.handed_on);
-  for (const auto& [child_index, child] : node.children) combine(child, node.hands_on ? index : -1, own);
+std::optional<bool> resolved_lock(const OverrideSet& set, const Overrides& overrides) {
+  for (const OverrideSet* each : sharing_chain(set, overrides))
+    if (each->is_locked) return each->is_locked;
+  return std::nullopt;
 }
 
 ChangeCursor::ChangeCursor(const ChangeGraph* graph) : graph_(graph), node_(graph ? 0 : -1) {}
 
-ChangeCursor ChangeCursor::child(std::uint32_t index) const {
+ChangeCursor ChangeCursor::child(std::uint32_t index, float position) const {
   ChangeCursor below = *this;
   if (graph_ == nullptr) return below;
   below.node_ = -1;
   if (node_ < 0) return below;
   const ChangeGraph::Node& node = graph_->nodes_[static_cast<std::size_t>(node_)];
   below.inherits_ = node.hands_on ? node_ : -1;
-  const auto found = std::lower_bound(node.children.begin(), node.children.end(), std::pair{index, -1});
-  if (found != node.children.end() && found->first == index) below.node_ = found->second;
+  const auto after = std::upper_bound(node.first_index.begin(), node.first_index.end(), index);
+  if (after == node.first_index.begin()) return below;
+  const auto column = std::upper_bound(node.first_position.begin(), node.first_position.end(), position) -
+                      node.first_position.begin();
+  const auto row = after - node.first_index.begin() - 1;
+  const auto columns = static_cast<std::ptrdiff_t>(node.first_position.size()) + 1;
+  below.node_ = node.children[static_cast<std::size_t>(row * columns + column)];
   return below;
 }
 
@@ -153,6 +109,22 @@ const BranchChange* ChangeCursor::change() const {
   if (node_ > 0) return &graph_->nodes_[static_cast<std::size_t>(node_)].change;
   if (inherits_ >= 0) return &graph_->nodes_[static_cast<std::size_t>(inherits_)].handed_on;
   return nullptr;
+}
+
+std::int32_t ChangeCursor::row_changes() const {
+  if (node_ > 0) return graph_->nodes_[static_cast<std::size_t>(node_)].rows;
+  if (inherits_ >= 0) return graph_->nodes_[static_cast<std::size_t>(inherits_)].rows_handed_on;
+  return -1;
+}
+
+bool ChangeCursor::is_locked() const {
+  const std::int32_t at = node_ > 0 ? node_ : inherits_;
+  return at >= 0 && graph_->nodes_[static_cast<std::size_t>(at)].is_locked;
+}
+
+std::span<const std::uint32_t> ChangeCursor::nodes() const {
+  if (node_ <= 0) return {};
+  return graph_->nodes_[static_cast<std::size_t>(node_)].said_by;
 }
 
 }  // namespace espalier

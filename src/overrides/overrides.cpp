@@ -38,6 +38,13 @@ OverrideNode& Overrides::at(const BranchPath& path) {
   return *nodes.insert(place, {path, {}});
 }
 
+OverrideSet& Overrides::set_of(const BranchPattern& pattern) {
+  if (const auto path = as_path(pattern)) return at(*path).set;
+  const auto found = std::find_if(ranges.begin(), ranges.end(),
+                                  [&](const RangeNode& node) { return node.pattern == pattern; });
+  return found == ranges.end() ? ranges.emplace_back(RangeNode{pattern, {}}).set : found->set;
+}
+
 const OverrideNode* Overrides::find(const BranchPath& path) const {
   const auto place = lower_bound_of(nodes, path);
   return place != nodes.end() && place->path == path ? &*place : nullptr;
@@ -51,13 +58,13 @@ std::vector<std::string> quantity_names() {
   return names;
 }
 
-void check_override(const Override& entry, const BranchPath& path, const std::string& where) {
+void check_override(const Override& entry, const BranchPattern& pattern, const std::string& where) {
   const QuantityRow& row = row_of(entry.quantity);
   if (!is_relative(entry.quantity) && entry.relation != Relation::value)
     throw_input_error("{}: {}: got a factor or an offset, expected a value", where, row.name);
-  if (entry.quantity == Quantity::position && path.size() == 1)
+  if (entry.quantity == Quantity::position && pattern.size() == 1)
     throw_input_error("{}: {}: got one for trunk {}, expected a branch that has a parent", where, row.name,
-                      to_string(path));
+                      to_string(pattern));
   const bool is_bounded = entry.relation == Relation::value;
   const double lower = is_bounded                                             ? row.lower
                        : entry.relation == Relation::factor && row.lower >= 0 ? 0
@@ -78,6 +85,16 @@ void set_override(OverrideSet& set, const Override& entry) {
     *place = entry;
   else
     set.overrides.insert(place, entry);
+}
+
+void set_parameter(OverrideSet& set, const ParameterOverride& entry) {
+  const auto place =
+      std::lower_bound(set.parameters.begin(), set.parameters.end(), entry.key,
+                       [](const ParameterOverride& a, const std::string& key) { return a.key < key; });
+  if (place != set.parameters.end() && place->key == entry.key)
+    *place = entry;
+  else
+    set.parameters.insert(place, entry);
 }
 
 }  // namespace espalier

@@ -11,12 +11,12 @@
 
 #include <espalier/overrides/branch_change.h>
 #include <espalier/overrides/branch_crown.h>
+#include <espalier/overrides/branch_pattern.h>
 #include <espalier/overrides/drawn_axis.h>
+#include <espalier/overrides/parameter_override.h>
 #include <espalier/plant/branch_path.h>
 
 namespace espalier {
-
-enum class Relation : std::uint8_t { value, factor, offset };
 
 struct Override {
   Quantity quantity = Quantity::length;
@@ -27,12 +27,16 @@ struct Override {
 
 /// What one node says, or several that share it.
 struct OverrideSet {
-  std::string shares;               ///< name of a shared set that comes first; empty: none
-  std::vector<Override> overrides;  ///< by quantity, each once (set_override)
+  std::string shares;                         ///< name of a shared set that comes first; empty: none
+  std::vector<Override> overrides;            ///< by quantity, each once (set_override)
+  std::vector<ParameterOverride> parameters;  ///< of the model, by key, each once (set_parameter)
   std::optional<DrawnAxis> axis;
   std::optional<BranchCrown> crown;
+  std::optional<bool> is_locked;  ///< whether fits leave the branch, and all on it, as it is
 
-  bool empty() const { return shares.empty() && overrides.empty() && !axis && !crown; }
+  bool empty() const {
+    return shares.empty() && overrides.empty() && parameters.empty() && !axis && !crown && !is_locked;
+  }
 };
 
 struct OverrideNode {
@@ -40,11 +44,20 @@ struct OverrideNode {
   OverrideSet set;
 };
 
+/// A node of several branches.
+struct RangeNode {
+  BranchPattern pattern;
+  OverrideSet set;
+};
+
 struct Overrides {
   std::vector<OverrideNode> nodes;            ///< by path, each once
+  std::vector<RangeNode> ranges;              ///< in the order of files, each pattern once
   std::map<std::string, OverrideSet> shared;  ///< by name
 
-  bool empty() const { return nodes.empty(); }
+  bool empty() const { return nodes.empty() && ranges.empty(); }
+  /// The set of this pattern, made where there is none.
+  OverrideSet& set_of(const BranchPattern& pattern);
   /// The node of this path, made where there is none.
   OverrideNode& at(const BranchPath& path);
   const OverrideNode* find(const BranchPath& path) const;
@@ -56,9 +69,11 @@ std::vector<std::string> quantity_names();
 
 /// Throws InputError, opening with `where`, where a number is no valid one for its quantity, or a quantity
 /// cannot be overridden that way: a factor of a seed, a trunk's position.
-void check_override(const Override& entry, const BranchPath& path, const std::string& where);
+void check_override(const Override& entry, const BranchPattern& pattern, const std::string& where);
 
 /// Sets what `set` says of this quantity, replacing what it said before.
 void set_override(OverrideSet& set, const Override& entry);
+/// The same of a key of the model's.
+void set_parameter(OverrideSet& set, const ParameterOverride& entry);
 
 }  // namespace espalier

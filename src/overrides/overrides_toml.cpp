@@ -13,40 +13,32 @@ namespace espalier {
 
 namespace {
 
-constexpr const char* kRelations[] = {"value", "factor", "offset"};  ///< in the order of Relation
-
-std::vector<std::string> known_keys(bool in_branch) {
+/// Those that are the same for all models; a parameter of the same name is reached by its level alone.
+std::vector<std::string> own_keys(bool in_branch) {
   std::vector<std::string> keys = quantity_names();
-  keys.insert(keys.end(), {"shares", "axis", "axis_frame", "crown"});
+  keys.insert(keys.end(), {"shares", "axis", "axis_frame", "crown", "locked"});
   if (in_branch) keys.emplace_back("path");
   return keys;
 }
 
-/// { factor = 1.2, private = true }
-void read_relation(const TomlSection& entry, Override& result) {
-  entry.expect_only({"value", "factor", "offset", "private"});
-  int found = 0;
-  for (std::size_t i = 0; i < std::size(kRelations); ++i) {
-    if (!entry.has(kRelations[i])) continue;
-    result.relation = static_cast<Relation>(i);
-    result.number = entry.number(kRelations[i]);
-    ++found;
-  }
-  if (entry.has("private")) result.is_private = entry.flag("private");
-  if (found != 1)
-    throw_input_error("{}: got {} of value, factor and offset, expected one",
-                      toml_location(entry.source, entry.table), found);
+bool is_among(const std::string& key, const std::vector<std::string>& keys) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+std::vector<std::string> known_keys(bool in_branch, const ParameterTable& table) {
+  std::vector<std::string> keys = own_keys(in_branch);
+  for (std::string& key : parameter_keys(table)) keys.push_back(std::move(key));
+  return keys;
 }
 
 Override read_override(const TomlSection& node, const std::string& key, Quantity quantity) {
-  Override result{.quantity = quantity};
-  if (node.node(key).is_table())
-    read_relation(node.section(key), result);
-  else if (node.node(key).is_boolean())
-    result.number = node.flag(key) ? 1 : 0;
-  else
-    result.number = node.number(key);
-  return result;
+  if (node.node(key).is_boolean()) return {quantity, Relation::value, node.flag(key) ? 1.0 : 0.0};
+  const SaidInToml said = read_said(node, key);
+  const auto number = said.number->value<double>();
+  if (!number)
+    throw_input_error("{}: {}: got {}, expected a number", toml_location(node.source, *said.number), key,
+                      describe_toml(*said.number));
+  return {quantity, said.relation, *number, said.is_private};
 }
 
 AxisPoint read_axis_point(const TomlSection& node, const toml::node& element) {
@@ -104,15 +96,31 @@ BranchCrown read_crown(const TomlSection& section) {
   return crown;
 }
 
-void read_set(const TomlSection& node, const BranchPath& path, OverrideSet& set) {
+/// In the order of their keys, so that "taper[1]" comes after "taper".
+void read_parameters_of_model(const TomlSection& node, const BranchPattern& pattern,
+                              const ParameterTable& table, OverrideSet& set) {
+  const std::vector<std::string> own = own_keys(true);
+  for (const auto& [toml_key, value] : node.table) {
+    const std::string key(toml_key.str());
+    if (is_among(key, own)) continue;
+    const ParameterOverride entry = read_parameter(node, key, table);
+    check_level(entry, level_of(pattern), table, toml_location(node.source, value));
+    set_parameter(set, entry);
+  }
+}
+
+void read_set(const TomlSection& node, const BranchPattern& pattern, const ParameterTable& table,
+              OverrideSet& set) {
+  read_parameters_of_model(node, pattern, table, set);
   if (node.has("shares")) set.shares = node.text("shares");
   read_axis(node, set);
+  if (node.has("locked")) set.is_locked = node.flag("locked");
   if (node.has("crown")) set.crown = read_crown(node.section("crown"));
   const std::vector<std::string> names = quantity_names();
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!node.has(names[i])) continue;
     const Override entry = read_override(node, names[i], static_cast<Quantity>(i));
-    check_override(entry, path, toml_location(node.source, node.node(names[i])));
+    check_override(entry, pattern, toml_location(node.source, node.node(names[i])));
     set_override(set, entry);
   }
 }
@@ -126,11 +134,11 @@ void check_sharing(const TomlSection& node, const OverrideSet& set, const Overri
   }
 }
 
-void read_shared(const TomlSection& sets, Overrides& overrides) {
+void read_shared(const TomlSection& sets, const ParameterTable& table, Overrides& overrides) {
   for (const auto& [name, node] : sets.table) {
     const TomlSection set = sets.section(name.str());
-    set.expect_only(known_keys(false));
-    read_set(set, {}, overrides.shared[std::string(name.str())]);
+    set.expect_only(known_keys(false, table));
+    read_set(set, {}, table, overrides.shared[std::string(name.str())]);
   }
   for (const auto& [name, node] : sets.table) {  // also those that no branch shares
     const TomlSection set = sets.section(name.str());
@@ -166,7 +174,9 @@ std::string set_to_toml(const OverrideSet& set) {
   std::string text;
   if (!set.shares.empty()) text += fmt::format("shares = {}\n", quote_toml(set.shares));
   for (const Override& entry : set.overrides) text += override_to_toml(entry);
+  for (const ParameterOverride& entry : set.parameters) text += to_toml(entry);
   if (set.axis) text += axis_to_toml(*set.axis);
+  if (set.is_locked) text += fmt::format("locked = {}\n", *set.is_locked);
   if (set.crown) text += crown_to_toml(*set.crown);
   return text;
 }
@@ -175,18 +185,18 @@ std::string set_to_toml(const OverrideSet& set) {
 
 std::vector<std::string> override_keys() { return {"branch", "shared"}; }
 
-void read_overrides(const TomlSection& preset, Overrides& overrides) {
-  if (preset.has("shared")) read_shared(preset.section("shared"), overrides);
+void read_overrides(const TomlSection& preset, const ParameterTable& table, Overrides& overrides) {
+  if (preset.has("shared")) read_shared(preset.section("shared"), table, overrides);
   if (!preset.has("branch")) return;
   for (const TomlSection& node : preset.sections("branch")) {
-    node.expect_only(known_keys(true));
+    node.expect_only(known_keys(true, table));
     if (!node.has("path"))
       throw_input_error("{}: got a branch without a path, expected path = \"0/3\"",
                         toml_location(node.source, node.table));
-    const BranchPath path =
-        parse_branch_path(node.text("path"), toml_location(node.source, node.node("path")));
-    OverrideSet& set = overrides.at(path).set;
-    read_set(node, path, set);
+    const BranchPattern pattern =
+        parse_branch_pattern(node.text("path"), toml_location(node.source, node.node("path")));
+    OverrideSet& set = overrides.set_of(pattern);
+    read_set(node, pattern, table, set);
     if (node.has("shares")) check_sharing(node, set, overrides);
   }
 }
@@ -195,8 +205,11 @@ std::string overrides_to_toml(const Overrides& overrides) {
   std::string text;
   for (const auto& [name, set] : overrides.shared)
     text += fmt::format("\n[shared.{}]\n{}", quote_toml(name), set_to_toml(set));
-  for (const OverrideNode& node : overrides.nodes)
-    text += fmt::format("\n[[branch]]\npath = \"{}\"\n{}", to_string(node.path), set_to_toml(node.set));
+  const auto add = [&](const auto& path, const OverrideSet& set) {
+    text += fmt::format("\n[[branch]]\npath = \"{}\"\n{}", to_string(path), set_to_toml(set));
+  };
+  for (const RangeNode& node : overrides.ranges) add(node.pattern, node.set);
+  for (const OverrideNode& node : overrides.nodes) add(node.path, node.set);
   return text;
 }
 

@@ -126,7 +126,7 @@ void Reshaper::shape_stem(std::uint32_t stem, const ChangeGraph* changes) {
   const std::uint32_t index = stems.child_index[stem];
   const Shape* below = origin < 0 ? nullptr : &shapes_[static_cast<std::size_t>(origin)];
   Shape shape;
-  shape.cursor = (below ? below->cursor : ChangeCursor(changes)).child(index);
+  shape.cursor = below ? below->cursor.child(index, position_of(stem)) : ChangeCursor(changes).child(index);
   const BranchChange* change = shape.cursor.change();
   float length_factor = 1;
   shape.is_gone = (below && (below->is_gone || index >= below->most_stems)) || (change && change->removed) ||
@@ -145,6 +145,13 @@ void Reshaper::shape_stem(std::uint32_t stem, const ChangeGraph* changes) {
   }
   if (shape.moves) move_knots(stem, shape, stand.new_base_m, length_factor);
   shapes_[stem] = shape;
+}
+
+/// Along its origin, as it grew.
+float Reshaper::position_of(std::uint32_t stem) const {
+  const Stems& stems = base_.plant.stems;
+  const auto origin = static_cast<std::size_t>(stems.origin[stem]);
+  return arcs_.fraction_at(stems, origin, base_.joints.stem_place[stem]);
 }
 
 Reshaper::Stand Reshaper::stand_of(std::uint32_t stem, const BranchChange* change) const {
@@ -347,7 +354,8 @@ void Reshaper::write_leaf(std::uint32_t leaf, Plant& shaped) const {
   if (!from.shade.empty()) to.shade.push_back(from.shade[leaf]);
 }
 
-void Reshaper::reshape(const ChangeGraph* changes, const PlantPart* only_part, Plant& shaped) {
+void Reshaper::reshape(const ChangeGraph* changes, const PlantPart* only_part, Plant& shaped,
+                       std::vector<ChangeCursor>* stem_cursors) {
   shaped.clear();
   shaped.leaf_shape = base_.plant.leaf_shape;
   shaped.blossom_shape = base_.plant.blossom_shape;
@@ -363,6 +371,9 @@ void Reshaper::reshape(const ChangeGraph* changes, const PlantPart* only_part, P
   for (const std::uint32_t stem : chosen_)
     if (!shapes_[stem].is_gone) write_stem(stem, shaped);
   for (const std::uint32_t leaf : chosen_leaves_) write_leaf(leaf, shaped);
+  if (stem_cursors && changes)
+    for (const std::uint32_t stem : chosen_)
+      if (!shapes_[stem].is_gone) stem_cursors->push_back(shapes_[stem].cursor);
   check_finite(shaped);
 }
 

@@ -36,8 +36,10 @@ class Reshaper {
   /// The plant with these changes (null: none), or the part of it alone, in its place, into `shaped`, whose
   /// memory is reused. Stems keep their order, leaves of a whole plant too; what neither changes itself nor
   /// stands on what does keeps its bits. Leaves that hang on no stem go with trunk 0 where a part is asked
-  /// for. Throws InputError where the changes make the plant too large for floats.
-  void reshape(const ChangeGraph* changes, const PlantPart* only_part, Plant& shaped);
+  /// for. Throws InputError where the changes make the plant too large for floats. `stem_cursors` gets the
+  /// place in the graph of each stem that is left; null: nobody asks.
+  void reshape(const ChangeGraph* changes, const PlantPart* only_part, Plant& shaped,
+               std::vector<ChangeCursor>* stem_cursors = nullptr);
 
  private:
   /// What becomes of a stem.
@@ -69,6 +71,7 @@ class Reshaper {
   void choose(const PlantPart* only_part);
   void choose_all_on_chosen();
   void shape_stem(std::uint32_t stem, const ChangeGraph* changes);
+  float position_of(std::uint32_t stem) const;
   Stand stand_of(std::uint32_t stem, const BranchChange* change) const;
   bool change_length(std::uint32_t stem, const BranchChange& change, float& factor) const;
   void change_direction(std::uint32_t stem, const BranchChange& change, const Stand& stand,

@@ -24,7 +24,9 @@ std::optional<std::uint32_t> parse_number(std::string_view text, std::uint32_t m
   return number;
 }
 
-std::optional<std::uint32_t> parse_part(std::string_view text) {
+}  // namespace
+
+std::optional<std::uint32_t> parse_path_part(std::string_view text) {
   if (!text.starts_with(kSplit)) return parse_number(text, kFirstSplit - 1);
   const std::string_view place = text.substr(kSplit.size());
   const std::size_t dot = place.find('.');
@@ -34,8 +36,6 @@ std::optional<std::uint32_t> parse_part(std::string_view text) {
   if (!at || !number) return std::nullopt;
   return kFirstSplit + kStemsPerSplit * *at + *number;
 }
-
-}  // namespace
 
 std::string to_string(const BranchPath& path) {
   std::string text;
@@ -50,7 +50,7 @@ BranchPath parse_branch_path(std::string_view text, const std::string& where) {
   BranchPath path;
   for (std::size_t first = 0; first <= text.size();) {
     const std::size_t end = std::min(text.find('/', first), text.size());
-    const auto part = parse_part(text.substr(first, end - first));
+    const auto part = parse_path_part(text.substr(first, end - first));
     if (!part)
       throw_input_error("{}: got '{}', expected a path of branches like '0/12/3' or '0/split4.1/7'", where,
                         text);

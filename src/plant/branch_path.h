@@ -6,6 +6,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ using BranchPath = std::vector<std::uint32_t>;
 inline constexpr std::uint32_t kFirstSplit = 1'000'000, kStemsPerSplit = 16;
 
 std::string to_string(const BranchPath& path);
+
+/// One part of a path; none: `text` is none.
+std::optional<std::uint32_t> parse_path_part(std::string_view text);
 
 /// Throws InputError, opening with `where`, unless `text` is a path.
 BranchPath parse_branch_path(std::string_view text, const std::string& where);

@@ -14,7 +14,8 @@
 
 namespace espalier {
 
-class ChangeGraph;                   // overrides/change_graph.h
+class ChangeCursor;                  // overrides/change_graph.h
+class ChangeGraph;                   // the same
 enum class Quantity : std::uint8_t;  // overrides/branch_change.h
 class Volume;                        // environment/volume.h
 
@@ -39,7 +40,9 @@ struct GrowthSettings {
   bool train = false;                    ///< bend stems along prune_to's border before they are cut
   const ChangeGraph* changes = nullptr;  ///< overrides of single branches; not owned
   const PlantPart* only_part =
-      nullptr;                    ///< grow this branch, in its place, and leave out the rest; not owned
+      nullptr;  ///< grow this branch, in its place, and leave out the rest; not owned
+  /// Gets the place in `changes` of each stem that is grown; nothing where there are none. Not owned.
+  std::vector<ChangeCursor>* stem_cursors = nullptr;
   LeafSink* leaf_sink = nullptr;  ///< gets leaves that the plant then lacks: all, some or none; not owned
   int steps = kAllSteps;          ///< of a model that grows in steps: how many
 };

@@ -61,9 +61,10 @@ GrowthSettings with_crown(const GrowthSettings& settings, const TreeCrown& crown
 
 class Growth {
  public:
-  Growth(const WeberPennParameters& p, const GrowthSettings& settings, const TreeCrown& crown, Lanes lanes,
-         GrowthMemory& memory, Plant& plant)
+  Growth(const WeberPennParameters& p, const BranchParameters* of_branches, const GrowthSettings& settings,
+         const TreeCrown& crown, Lanes lanes, GrowthMemory& memory, Plant& plant)
       : p_(p),
+        of_branches_(of_branches),
         settings_(settings),
         crown_(crown),
         uses_vectors_(lanes == Lanes::many),
@@ -114,7 +115,11 @@ class Growth {
   bool prune(GrowingStem& stem, const Volume* volume) const;
   double over_budget_factor() const;
 
-  const WeberPennParameters& p_;
+  /// Those that the stem and its children grow by.
+  const WeberPennParameters& parameters(const GrowingStem& stem) const { return parameters_of(stem, p_); }
+
+  const WeberPennParameters& p_;         ///< the tree's
+  const BranchParameters* of_branches_;  ///< where some have their own
   const GrowthSettings& settings_;
   const TreeCrown& crown_;
   bool uses_vectors_;
@@ -131,19 +136,20 @@ class Growth::StemGrowth : public StemVisitor {
  public:
   StemGrowth(Growth& growth, const GrowingStem& stem)
       : growth_(growth),
+        p_(growth.parameters(stem)),
         is_shown_(growth.is_shown(stem)),
         index_(is_shown_ ? growth.last_stem() : -1),
         offspring_(growth.offspring(stem)) {
     if (offspring_.leaves)
-      children_.emplace(stem, ChildPlacer::Bears::leaves, growth.p_);
+      children_.emplace(stem, ChildPlacer::Bears::leaves, p_);
     else if (offspring_.stems)
-      children_.emplace(stem, ChildPlacer::Bears::stems, growth.p_);
+      children_.emplace(stem, ChildPlacer::Bears::stems, p_);
     if (offspring_.are_changed) changed_.emplace(*children_, growth.only_child(stem));
     growth.twig_batch_.set_parent(index_);
   }
 
   bool segment(const GrowingStem& stem, const Segment& segment) override {
-    if (is_shown_) append_knots(stem, segment, growth_.p_, growth_.plant_.knots);
+    if (is_shown_) append_knots(stem, segment, p_, growth_.plant_.knots);
     if (children_) bear_children(stem, segment);
     return true;
   }
@@ -175,13 +181,14 @@ class Growth::StemGrowth : public StemVisitor {
     }
     for (ChildSite site; children_->next(site);) {
       if (offspring_.leaves)
-        place_leaf(stem, site, growth_.p_, growth_.plant_.leaves);
+        place_leaf(stem, site, p_, growth_.plant_.leaves);
       else
         growth_.grow_child(stem, index_, site);
     }
   }
 
   Growth& growth_;
+  const WeberPennParameters& p_;  ///< the stem's
   bool is_shown_;
   std::int32_t index_;  ///< in the plant; -1 where the stem is not shown
   Offspring offspring_;
@@ -191,8 +198,8 @@ class Growth::StemGrowth : public StemVisitor {
 
 Offspring Growth::offspring(const GrowingStem& stem) {
   if (stem.level + 1 >= p_.level_count()) {
-    if (p_.leaf_blos_num == 0 || !is_shown(stem)) return {};
-    const bool in_batches = uses_vectors_ && !stem.axis && LeafBatch::supports(stem, p_);
+    if (parameters(stem).leaf_blos_num == 0 || !is_shown(stem)) return {};
+    const bool in_batches = uses_vectors_ && !stem.axis && !stem.own && LeafBatch::supports(stem, p_);
     return {.leaves = true, .batch = in_batches ? &leaf_batch_ : nullptr};
   }
   if (settings_.only_part && settings_.only_part->alone && is_shown(stem)) return {};
@@ -211,12 +218,13 @@ void Growth::begin_stem(const GrowingStem& stem) {
   plant_.stems.path_key.push_back(stem.key.value);
   plant_.stems.origin.push_back(stem.origin);
   plant_.stems.child_index.push_back(stem.child_index);
+  if (settings_.stem_cursors && settings_.changes) settings_.stem_cursors->push_back(stem.cursor);
 }
 
 void Growth::grow_stem(const GrowingStem& stem) {
   begin_stem(stem);
   StemGrowth growth(*this, stem);
-  walk_stem(stem, p_, growth);
+  walk_stem(stem, parameters(stem), growth);
   growth.finish(stem);
   if (is_shown(stem)) plant_.stems.first_knot.push_back(static_cast<std::uint32_t>(plant_.knots.size()));
 }
@@ -265,9 +273,10 @@ std::size_t Growth::grow_next(std::size_t index) {
 }
 
 float Growth::child_length_m(const GrowingStem& parent, const ChildSite& site) const {
-  const AlongCurve& along = p_.curves.length_along[level_index(parent.level + 1)];
+  const WeberPennParameters& p = parameters(parent);
+  const AlongCurve& along = p.curves.length_along[level_index(parent.level + 1)];
   const float shaped_m = shaped_length_m(parent, site);
-  return along.is_neutral ? shaped_m : shaped_m * along.at(place_above_base(parent, site.offset_m, p_));
+  return along.is_neutral ? shaped_m : shaped_m * along.at(place_above_base(parent, site.offset_m, p));
 }
 
 /// Level 1 follows the crown's shape, deeper levels their place on the parent [Weber & Penn 95, §4.4].
@@ -275,7 +284,7 @@ float Growth::shaped_length_m(const GrowingStem& parent, const ChildSite& site) 
   const float longest_m = parent.length_m * parent.child_max;
   if (parent.level > 0) return parent.child_max * (parent.length_m - 0.7f * site.offset_m);
   const float ratio = (parent.length_m - site.offset_m) / (parent.length_m - parent.tree.base_length_m);
-  return longest_m * crown_shape_ratio(std::clamp(ratio, 0.f, 1.f), p_);
+  return longest_m * crown_shape_ratio(std::clamp(ratio, 0.f, 1.f), parameters(parent));
 }
 
 void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, const ChildSite& site) {
@@ -290,30 +299,32 @@ void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, co
   child.path_length = parent.path_length + 1;
   child.cursor = site.cursor;
   child.axis = child.cursor.axis();
-  child.extra_curve = extra_curve(change, level, p_);
   child.pad = parent.pad;
   child.tree = parent.tree;
+  find_parameters(child);
+  const WeberPennParameters& p = parameters(child);
+  child.extra_curve = extra_curve(change, level, p);
   child.turtle = site.turtle;
   child.offset_m = site.offset_m;
   child.parent_length_m = parent.length_m;
   child.parent_child_max = parent.child_max;
   const PlacedCrown* crown = length_giver(parent);
   const auto length_m = [&] {
-    const float own_m = crown ? length_to_crown_m(child, *crown, p_) : child_length_m(parent, site);
+    const float own_m = crown ? length_to_crown_m(child, *crown, p) : child_length_m(parent, site);
     return changed(change, Quantity::length, site.grown_fraction * own_m);
   };
   child.length_m = length_m();
   if (child.length_m < kShortestStemM) return;
   // [CH §3.2.1]: starts as close as is safe to the parent's surface; before pruning, which tests where it is.
   const auto radius_m = [&](float length_m) {
-    return child_radius_m(length_m, parent.length_m, parent.radius_m, site.parent_radius_m, level, p_);
+    return child_radius_m(length_m, parent.length_m, parent.radius_m, site.parent_radius_m, level, p);
   };
   const float unpruned_radius_m = radius_m(child.length_m);
   child.turtle.position_m += site.outward * (site.parent_radius_m - unpruned_radius_m);
   if (crown) child.length_m = length_m();  // from where it starts now
   if (!prune(child)) return;
   child.radius_m = changed(change, Quantity::radius, radius_m(child.length_m));
-  child.child_max = drawn_child_max(child, p_);
+  child.child_max = drawn_child_max(child, p);
   place_pad(child);
   twig_batch_.flush();  // what waits comes before
   next_level_.push_back(child);
@@ -332,7 +343,7 @@ const PlacedCrown* Growth::length_giver(const GrowingStem& parent) const {
 void Growth::place_pad(GrowingStem& stem) {
   const BranchCrown* crown = stem.cursor.crown();
   if (crown == nullptr) return;
-  const Vec3 tip = tip_m(stem, p_);
+  const Vec3 tip = tip_m(stem, parameters(stem));
   if (length(tip - stem.turtle.position_m) < kShortestStemM) return;
   stem.pad = static_cast<std::int32_t>(pads_.size());
   pads_.push_back({PlacedCrown(*crown, stem.turtle, tip), stem.level});
@@ -354,9 +365,9 @@ bool Growth::prune(GrowingStem& stem) const {
 bool Growth::prune(GrowingStem& stem, const Volume* volume) const {
   if (volume && settings_.train && stem.axis) return stem.length_m >= kShortestStemM;
   if (volume && settings_.train)
-    train_stem(stem, p_, *volume);
+    train_stem(stem, parameters(stem), *volume);
   else
-    stem.length_m = pruned_length_m(stem, p_, volume);
+    stem.length_m = pruned_length_m(stem, parameters(stem), volume);
   return stem.length_m >= kShortestStemM;
 }
 
@@ -391,13 +402,15 @@ float trunk_roll_deg(GrowingStem& trunk, const Modification& rotation) {
 bool Growth::change_trunk(GrowingStem& trunk) const {
   const BranchChange* change = trunk.cursor.change();
   if (change == nullptr) return true;
+  const WeberPennParameters& p = parameters(trunk);
+  if (trunk.own) trunk.length_m = trunk_length_m(trunk, p);
   trunk.key = reseeded(trunk.key, change->seed);
   trunk.length_m = (*change)[Quantity::length].apply(trunk.length_m);
-  trunk.tree.base_length_m = trunk.length_m * p_.base_size[0];
+  trunk.tree.base_length_m = trunk.length_m * p.base_size[0];
   trunk.axis = trunk.cursor.axis();
   trunk.turtle.roll_right(trunk_roll_deg(trunk, (*change)[Quantity::rotation]));
   trunk.turtle.pitch_down((*change)[Quantity::down_angle].apply(0));
-  trunk.extra_curve = extra_curve(change, 0, p_);
+  trunk.extra_curve = extra_curve(change, 0, p);
   return !change->removed;
 }
 
@@ -408,10 +421,13 @@ GrowthResult Growth::run(Seed seed) {
   for (GrowingStem& trunk : level_) {
     trunk.child_index = static_cast<std::uint32_t>(&trunk - level_.data());
     trunk.cursor = above_trunks.child(trunk.child_index);
+    trunk.tree.of_branches = of_branches_;
+    find_parameters(trunk);
     if (!is_wanted(trunk) || !change_trunk(trunk) || !prune(trunk)) trunk.length_m = 0;
+    const WeberPennParameters& p = parameters(trunk);
     trunk.radius_m =
-        changed(trunk.cursor.change(), Quantity::radius, trunk.length_m * p_.ratio * p_.radius_mod[0]);
-    trunk.child_max = drawn_child_max(trunk, p_);
+        changed(trunk.cursor.change(), Quantity::radius, trunk.length_m * p.ratio * p.radius_mod[0]);
+    trunk.child_max = drawn_child_max(trunk, p);
     if (trunk.length_m >= kShortestStemM) place_pad(trunk);
   }
   std::erase_if(level_, [](const GrowingStem& trunk) { return trunk.length_m < kShortestStemM; });
@@ -434,15 +450,17 @@ GrowthResult Growth::run(Seed seed) {
 }  // namespace
 
 GrowthResult grow_tree(const WeberPennParameters& parameters, Seed seed, const GrowthSettings& settings,
-                       Plant& plant, Lanes lanes) {
+                       Plant& plant, Lanes lanes, const BranchParameters* of_branches) {
   plant.clear();
   plant.leaf_shape = static_cast<int>(parameters.leaf_shape);
   plant.blossom_shape = static_cast<int>(parameters.blossom_shape);
   plant.stems.first_knot.push_back(0);
+  if (settings.stem_cursors) settings.stem_cursors->clear();
   static thread_local GrowthMemory memory;
   const TreeCrown crown(parameters, tree_scale_m(parameters, child_key(root_key(seed), 0)));
   const GrowthSettings in_crown = with_crown(settings, crown);
-  const GrowthResult result = Growth(parameters, in_crown, crown, lanes, memory, plant).run(seed);
+  const GrowthResult result =
+      Growth(parameters, of_branches, in_crown, crown, lanes, memory, plant).run(seed);
   if (cuts_leaves(in_crown)) keep_leaves_inside(*in_crown.prune_to, plant.leaves);
   return result;
 }

@@ -42,7 +42,9 @@ class WeberPennModel : public Model {
     const double factor =
         std::max(expected.stems / settings.budget.max_stems, expected.leaves / settings.budget.max_leaves);
     if (factor > 2) return {false, factor};
-    return grow_tree(parameters, seed, settings, plant);
+    const BranchParameters of_branches(values, settings.changes);
+    return grow_tree(parameters, seed, settings, plant, Lanes::many,
+                     of_branches.empty() ? nullptr : &of_branches);
   }
 };
 

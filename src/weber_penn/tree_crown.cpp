@@ -23,7 +23,7 @@ class TipWalk : public StemVisitor {
         length_m_, crown_.reach_m(stem_.turtle.position_m, direction) / std::max(length(away), kLeastAway));
     return true;
   }
-  void split(const GrowingStem& clone) override { walk_stem(clone, p_, *this); }
+  void split(const GrowingStem& clone) override { walk_stem(clone, parameters_of(clone, p_), *this); }
 
   float length_m() const { return std::isfinite(length_m_) ? length_m_ : 0; }
 

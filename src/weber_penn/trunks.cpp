@@ -43,7 +43,7 @@ GrowingStem make_trunk(const WeberPennParameters& p, RandomKey key) {
   GrowingStem trunk;
   trunk.key = key;
   trunk.tree.scale_m = tree_scale_m(p, key);
-  trunk.length_m = trunk.tree.scale_m * (p.length[0] + draw_signed(key, Draw::trunk_length) * p.length_v[0]);
+  trunk.length_m = trunk_length_m(trunk, p);
   trunk.tree.base_length_m = trunk.length_m * p.base_size[0];
   trunk.turtle.roll_right(360 * draw_unit(key, Draw::trunk_roll));
   return trunk;
@@ -53,6 +53,10 @@ GrowingStem make_trunk(const WeberPennParameters& p, RandomKey key) {
 
 float tree_scale_m(const WeberPennParameters& p, RandomKey trunk) {
   return std::max(0.f, p.g_scale + draw_signed(trunk, Draw::tree_scale) * p.g_scale_v);
+}
+
+float trunk_length_m(const GrowingStem& trunk, const WeberPennParameters& p) {
+  return trunk.tree.scale_m * (p.length[0] + draw_signed(trunk.key, Draw::trunk_length) * p.length_v[0]);
 }
 
 void plant_trunks(const WeberPennParameters& p, RandomKey root, std::vector<GrowingStem>& stems) {

@@ -12,4 +12,7 @@ float tree_scale_m(const WeberPennParameters& parameters, RandomKey trunk);
 /// Appends the trunks (branches[0] of them) to `stems`, ready to grow.
 void plant_trunks(const WeberPennParameters& parameters, RandomKey root, std::vector<GrowingStem>& stems);
 
+/// By its key and the scale of its tree.
+float trunk_length_m(const GrowingStem& trunk, const WeberPennParameters& p);
+
 }  // namespace espalier

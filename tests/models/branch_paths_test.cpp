@@ -74,6 +74,30 @@ class BranchPaths : public testing::TestWithParam<const char*> {
 
 constexpr Override kNothing{Quantity::curvature, Relation::offset, 0, true};
 
+/// Each child stands somewhere, and on one side of the middle.
+TEST_P(BranchPaths, RangesMeanTheChildrenThatGrewThere) {
+  Overrides overrides;
+  for (const char* path : {"0/1..2", "0/@0..0.5", "0/@0.5..1", "0/*"})
+    set_override(overrides.set_of(parse_branch_pattern(path, "test")), kNothing);
+  const ChangeGraph changes(overrides);
+  std::vector<ChangeCursor> cursors;
+  GrowthSettings settings;
+  settings.changes = &changes;
+  settings.stem_cursors = &cursors;
+  Plant plant;
+  ASSERT_TRUE(model_.generate(preset_.values, 3, settings, plant).grown);
+  ASSERT_EQ(cursors.size(), plant.stems.size());
+  for (std::size_t stem = 0; stem < plant.stems.size(); ++stem) {
+    const BranchPath path = path_of(plant, stem);
+    const auto nodes = cursors[stem].nodes();
+    const auto is_of = [&](std::uint32_t node) { return std::count(nodes.begin(), nodes.end(), node) == 1; };
+    const bool is_child = path.size() == 2 && path[0] == 0 && path[1] < kFirstSplit;
+    EXPECT_EQ(is_of(0), is_child && path[1] >= 1 && path[1] <= 2) << to_string(path);
+    EXPECT_EQ(is_of(1) + is_of(2), is_child) << to_string(path);
+    EXPECT_EQ(is_of(3), is_child) << to_string(path);
+  }
+}
+
 TEST_P(BranchPaths, NameEachStemOnce) {
   ASSERT_TRUE(model_.has_branch_paths());
   const Plant plant = grow({});

@@ -424,6 +424,8 @@ INSTANTIATE_TEST_SUITE_P(
               "5: seed: got one for branch 0/2, expected none"},
         Fault{"CrownOfABranch", "[[branch]]\npath = \"0/1\"\ncrown = { radius = 0.4 }",
               "2: crown: got one for branch 0/1, expected none: model 'acer.lsys' has no crowns of branches"},
+        Fault{"AParameterOfABranch", "[[branch]]\npath = \"0/1\"\nunit = 2",
+              "4: key 'unit': got one for a branch, expected none: a plant of acer.lsys has it as a whole"},
         Fault{"GrowingIntoAPicture",
               "[[grown_into]]\noutline = \"a.png\"\nmetres_per_px = 1\nbase_row_px = 1",
               " key 'grown_into': got outlines to grow into, expected none: model 'acer.lsys'"}),

@@ -10,13 +10,15 @@
 #include <espalier/overrides/overrides_toml.h>
 #include <espalier/overrides/overrides_tree.h>
 
+#include "overrides/test_table.h"
+
 namespace espalier {
 namespace {
 
 Overrides read(const std::string& text) {
   const toml::table document = parse_toml(text, "tree.toml");
   Overrides overrides;
-  read_overrides({document, "tree.toml"}, overrides);
+  read_overrides({document, "tree.toml"}, test_table(), overrides);
   return overrides;
 }
 
@@ -169,16 +171,14 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(OverridesTree, ShowsCrowns) {
   const Overrides overrides = read("[[branch]]\npath = \"0/3\"\ncrown = { radius = 0.4, radius_up = 0.1 }\n");
-  EXPECT_EQ(overrides_tree(
-                overrides, [](const BranchPath&) { return true; }, "# "),
+  EXPECT_EQ(overrides_tree(overrides, {1}, "# "),
             "#   0/3: a crown of 0.4 to the right, 0.1 up, 0.4 to the left, 0.4 down\n");
 }
 
 TEST(OverridesTree, ShowsAxes) {
   const Overrides overrides =
       read("[[branch]]\npath = \"0\"\naxis = [[0, 0, 1], [0, 0, 2], [0, 0, 3]]\naxis_frame = \"world\"\n");
-  const std::string tree = overrides_tree(
-      overrides, [](const BranchPath&) { return true; }, "# ");
+  const std::string tree = overrides_tree(overrides, {1}, "# ");
   EXPECT_EQ(tree, "# 0: axis of 3 points in the frame of the world\n");
 }
 
@@ -202,11 +202,21 @@ TEST(OverridesTree, ShowsDepthInheritanceAndDormantNodes) {
   const Overrides overrides = read(
       "[[branch]]\npath = \"0/3\"\nlength = { factor = 2 }\nradius = { factor = 3, private = true }\n"
       "[[branch]]\npath = \"0/3/1\"\ncurvature = { offset = -20 }\n");
-  const std::string tree = overrides_tree(
-      overrides, [](const BranchPath& path) { return path.size() < 3; }, "# ");
+  const std::string tree = overrides_tree(overrides, {1, 0}, "# ");
   EXPECT_EQ(tree,
             "#   0/3: length × 2, radius × 3 (private)\n"
             "#     0/3/1: curvature -20; inherits length × 2 from 0/3 [dormant]\n");
+}
+
+TEST(OverridesTree, CountsTheBranchesOfRangesAndCallsThoseOfNoneDormant) {
+  const Overrides overrides = read(
+      "[[branch]]\npath = \"0/3..7\"\nlength = { factor = 2 }\n"
+      "[[branch]]\npath = \"0/@0.5..1\"\nlocked = true\n"
+      "[[branch]]\npath = \"0/3..7/2\"\nsize = 4\n");
+  EXPECT_EQ(overrides_tree(overrides, {5, 1, 0}, "# "),
+            "#   0/3..7: length × 2 [5 branches]\n"
+            "#   0/@0.5..1: locked [1 branch]\n"
+            "#     0/3..7/2: size = 4; inherits length × 2 from 0/3..7 [dormant]\n");
 }
 
 }  // namespace

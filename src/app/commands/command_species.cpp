@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <set>
 #include <string>
+#include <vector>
 
 #include <espalier/app/commands/commands.h>
 #include <espalier/models/grow_preset.h>
@@ -49,12 +49,9 @@ void check_file(const std::string& file) {
 /// The overrides of single branches as a tree in comments; dormant ones are those that do not grow with
 /// its seed.
 std::string branches_text(const Preset& preset) {
-  const Plant plant = grow_preset(preset, preset.name);
-  std::set<BranchPath> grown;
-  for (std::size_t stem = 0; stem < plant.stems.size(); ++stem) grown.insert(path_of(plant, stem));
+  const std::vector<std::size_t> branches = count_overridden(preset, preset.name);
   return fmt::format("\n# Branches that are overridden, as they grow with seed {}:\n", seed_of(preset)) +
-         overrides_tree(
-             preset.overrides, [&](const BranchPath& path) { return grown.contains(path); }, "# ");
+         overrides_tree(preset.overrides, branches, "# ");
 }
 
 void print_preset(const Preset& preset) {

@@ -83,6 +83,7 @@ class LsystemModel : public Model {
 
   GrowthResult generate(std::span<const double> values, Seed seed, const GrowthSettings& growth,
                         Plant& plant) const override {
+    if (growth.stem_cursors) growth.stem_cursors->clear();
     std::unique_ptr<Worker> worker = take_idle(values, seed, growth);
     GrowthResult result;
     try {
@@ -129,7 +130,7 @@ class LsystemModel : public Model {
                                result,
                                Reshaper(std::move(base))});
     }
-    grown->reshaper.reshape(growth.changes, growth.only_part, plant);
+    grown->reshaper.reshape(growth.changes, growth.only_part, plant, growth.stem_cursors);
     const GrowthResult result = grown->result;
     if (growth.prune_to) grown.reset();
     return result;

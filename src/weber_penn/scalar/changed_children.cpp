@@ -32,7 +32,7 @@ bool ChangedChildren::next(ChildSite& site) {
 bool ChangedChildren::take(const ChildSlot& slot, ChildSite& site) {
   const float generated_z = placer_.z_of(slot);
   if (!placer_.is_borne(slot, generated_z)) return false;
-  const ChangeCursor cursor = stem_->cursor.child(static_cast<std::uint32_t>(slot.index));
+  const ChangeCursor cursor = stem_->cursor.child(static_cast<std::uint32_t>(slot.index), generated_z);
   const BranchChange* change = cursor.change();
   if (is_removed(change)) return false;
   if (!change || (*change)[Quantity::position].changes_nothing()) {
@@ -60,7 +60,7 @@ bool ChangedChildren::next_waiting(ChildSite& site) {
 bool ChangedChildren::next_of_fan(ChildSite& site) {
   while (placer_.next(site)) {
     if (!is_wanted(site.index)) continue;
-    site.cursor = stem_->cursor.child(static_cast<std::uint32_t>(site.index));
+    site.cursor = stem_->cursor.child(static_cast<std::uint32_t>(site.index), 1);
     const BranchChange* change = site.cursor.change();
     if (is_removed(change)) continue;
     site.turtle.roll_right(changed(change, Quantity::rotation, 0));

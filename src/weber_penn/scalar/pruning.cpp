@@ -25,7 +25,7 @@ class InsideTest : public StemVisitor {
   /// The published implementation tests a stem without its clones, and the species were tuned for that;
   /// a volume that the user gives holds them too.
   void split(const GrowingStem& clone) override {
-    if (volume_ && inside_) walk_stem(clone, p_, *this);
+    if (volume_ && inside_) walk_stem(clone, parameters_of(clone, p_), *this);
   }
 
   bool inside() const { return inside_; }
@@ -88,7 +88,7 @@ class ShorteningWalk : public StemVisitor {
   }
   void split(const GrowingStem& clone) override {
     is_exact_ &= clone.cursor.change() == nullptr;  // may have a length of its own
-    if (!is_over()) walk_stem(clone, p_, *this);
+    if (!is_over()) walk_stem(clone, parameters_of(clone, p_), *this);
   }
 
   /// Not where an override changes a clone, or there are very many segments.

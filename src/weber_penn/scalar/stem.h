@@ -7,6 +7,7 @@
 #include <espalier/overrides/change_graph.h>
 #include <espalier/plant/branch_path.h>
 #include <espalier/weber_penn/scalar/stem_turtle.h>
+#include <espalier/weber_penn/table/branch_parameters.h>
 #include <espalier/weber_penn/table/parameters.h>
 
 namespace espalier {
@@ -46,8 +47,9 @@ inline float draw_unit(RandomKey key, Draw purpose, int index = 0) {
 
 /// Shared by all stems of one trunk.
 struct Tree {
-  float scale_m = 0;        ///< tree_scale [WP §4.2]
-  float base_length_m = 0;  ///< bare height of the trunk
+  float scale_m = 0;                              ///< tree_scale [WP §4.2]
+  float base_length_m = 0;                        ///< bare height of the trunk
+  const BranchParameters* of_branches = nullptr;  ///< where some have parameters of their own; not owned
 };
 
 /// Degrees by which a stem bends more than the parameters say.
@@ -64,11 +66,12 @@ struct GrowingStem {
   std::int32_t parent = -1;  ///< index in Plant::stems
   std::int32_t origin = -1;  ///< likewise; for a clone: of the stem it splits off
   std::uint32_t child_index = 0;
-  int path_length = 1;             ///< parts of its path
-  ChangeCursor cursor;             ///< its overrides
-  const StemAxis* axis = nullptr;  ///< it follows; null: it bends as the parameters say
-  ExtraCurve extra_curve;          ///< by an override, or by training
-  std::int32_t pad = -1;           ///< the crown of a branch that it grows in, by number; -1: none
+  int path_length = 1;                       ///< parts of its path
+  ChangeCursor cursor;                       ///< its overrides
+  const WeberPennParameters* own = nullptr;  ///< parameters; null: the tree's
+  const StemAxis* axis = nullptr;            ///< it follows; null: it bends as the parameters say
+  ExtraCurve extra_curve;                    ///< by an override, or by training
+  std::int32_t pad = -1;                     ///< the crown of a branch that it grows in, by number; -1: none
   Tree tree;
   StemTurtle turtle;    ///< at the start of the stem (for a clone: at the split)
   float length_m = 0;   ///< of the whole stem, also for a clone that starts midway
@@ -85,6 +88,16 @@ struct GrowingStem {
   float child_share = 1;    ///< of the children that an unsplit stem would bear per segment
   float split_correction_deg = 0;  ///< paid back at each later segment end
 };
+
+/// Those that the stem and its children grow by; `of_tree` are the tree's.
+inline const WeberPennParameters& parameters_of(const GrowingStem& stem, const WeberPennParameters& of_tree) {
+  return stem.own ? *stem.own : of_tree;
+}
+
+/// What overrides say of the stem's parameters, once its cursor is in place.
+inline void find_parameters(GrowingStem& stem) {
+  if (stem.tree.of_branches) stem.own = stem.tree.of_branches->of(stem.cursor.row_changes());
+}
 
 /// Other random numbers for a stem and all on it, where an override gives a seed.
 constexpr RandomKey reseeded(RandomKey key, std::uint64_t seed) {

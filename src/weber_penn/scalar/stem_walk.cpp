@@ -131,6 +131,7 @@ GrowingStem make_clone(const GrowingStem& stem, int at, int index, const WeberPe
   clone.path_length = stem.path_length + 1;
   clone.cursor = stem.cursor.child(clone.child_index);
   clone.axis = clone.cursor.axis();
+  if (clone.cursor.own_change()) find_parameters(clone);  // else those of its stem
   clone.first_segment = at;
   clone.child_share = stem.branch_factor * (1 - static_cast<float>(at) / segment_count(p, stem.level));
   clone.split_error = draw_unit(clone.key, Draw::split_error);
@@ -162,7 +163,7 @@ void split(GrowingStem& stem, int at, int count, bool at_base, const WeberPennPa
   for (int index = 1; index <= count; ++index) {
     GrowingStem clone = make_clone(stem, at, index, p);
     turn_into_fork(clone.turtle, fork, index, count);
-    if (!change_clone(clone, p)) continue;
+    if (!change_clone(clone, parameters_of(clone, p))) continue;
     clone.turtle.renormalize();
     visitor.split(clone);
   }

@@ -40,6 +40,10 @@ struct ForTrunkAndBranches {
 /// Names of two rows at most, the second or both nullptr; "[n]" is the row's own level.
 using Needs = std::array<const char*, 2>;
 
+/// Which branch can have a row for itself: the one it describes, or whose parts it does; the one that bears
+/// those it describes; a trunk; or none, as the whole plant has one.
+enum class Owner { stem, bearer, trunk, plant };
+
 /// What is not the same in most rows.
 struct Facts {
   std::optional<Range> trunk_valid;  ///< of the trunk's row, where it is another
@@ -53,6 +57,7 @@ struct Facts {
   const char* part_of = "";
   bool says_nothing_at_default = false;
   const ParameterCodec& (*codec)() = nullptr;
+  ForTrunkAndBranches<Owner> owner;
   ForTrunkAndBranches<Role> role;
   ForTrunkAndBranches<std::optional<double>> plain;
 };
@@ -86,46 +91,48 @@ constexpr std::array kLeafChoices = [] {
 }();
 constexpr const char* kSwitch[] = {"off", "on"};
 constexpr const char* kCrownUses[] = {"off", "cut", "length", "train"};
-const Facts kOfCrown{.needs = {{"crown_use"}}, .part_of = "crown_use"};
+constexpr ForTrunkAndBranches<Owner> kOfPlant{Owner::plant}, kOfTrunk{Owner::trunk},
+    kOfBearer{Owner::plant, Owner::bearer};
+const Facts kOfCrown{.needs = {{"crown_use"}}, .part_of = "crown_use", .owner = kOfPlant};
 
 // clang-format off
 const Definition kDefinitions[] = {
   {&P::shape, "shape", "1", {0, 8}, {0, 8}, kChoice, kNumber, "", "Shape", "crown shape: how the length of first-level branches changes with height",
-   {.choices = kCrownShapes, .mixed_with = "shape_2", .mixed_by = "shape_mix", .plain = {3}}},
+   {.choices = kCrownShapes, .mixed_with = "shape_2", .mixed_by = "shape_mix", .owner = kOfTrunk, .plain = {3}}},
   {&P::shape_2, "shape_2", "1", {0, 8}, {0, 8}, kChoice, kNumber, "", "", "a second crown shape, mixed in by shape_mix",
-   {.choices = kCrownShapes, .needs = {{"shape_mix"}}}},
+   {.choices = kCrownShapes, .needs = {{"shape_mix"}}, .owner = kOfTrunk}},
   {&P::shape_mix, "shape_mix", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "", "share of shape_2 in the crown's shape: 0 is shape alone",
-   {.plain = {0}}},
+   {.owner = kOfTrunk, .plain = {0}}},
   {&P::g_scale, "g_scale", "m", {0.01, 500}, {2, 40}, kLog, kNumber, "*", "Scale", "scale of the whole tree; with length[0] = 1 its height",
-   {.role = {Role::tree_scale}}},
+   {.owner = kOfPlant, .role = {Role::tree_scale}}},
   {&P::g_scale_v, "g_scale_v", "m", {0, 500}, {0, 10}, kReal, kNumber, "", "ScaleV", "largest variation of g_scale",
-   {.role = {Role::tree_scale_variation}, .plain = {0}}},
+   {.owner = kOfPlant, .role = {Role::tree_scale_variation}, .plain = {0}}},
   {&P::levels, "levels", "1", {1, 4}, {1, 4}, kWhole, kNumber, "", "Levels", "levels of branching, the trunk included; leaves grow on the last",
-   {.role = {Role::levels}}},
+   {.owner = kOfPlant, .role = {Role::levels}}},
   {&P::ratio, "ratio", "1", {0.0001, 1}, {0.005, 0.08}, kLog, kNumber, "*", "Ratio", "radius of the trunk over its length",
-   {.role = {Role::trunk_ratio}}},
+   {.owner = kOfTrunk, .role = {Role::trunk_ratio}}},
   {&P::ratio_power, "ratio_power", "1", {0, 10}, {0.8, 2.5}, kReal, kNumber, "*", "RatioPower", "how strongly radii shrink from level to level",
    {.role = {Role::radius_power}, .plain = {1.2}}},
   {&P::flare, "flare", "1", {0, 20}, {0, 2}, kReal, kNumber, "*", "Flare", "widening of the trunk at its foot, as a fraction of its radius",
-   {.role = {Role::trunk_flare}, .plain = {0}}},
+   {.owner = kOfTrunk, .role = {Role::trunk_flare}, .plain = {0}}},
   {&P::base_splits, "base_splits", "1", {-10, 10}, {-3, 3}, kWhole, kFlag, "", "0BaseSplits", "clones of the trunk at the height of its base; negative: a random number up to that many",
-   {.sides = FlagSides::one_measure, .role = {Role::trunk_form}, .plain = {0}}},
+   {.sides = FlagSides::one_measure, .owner = kOfTrunk, .role = {Role::trunk_form}, .plain = {0}}},
   {&P::base_size, "base_size", "1", {0, 0.99}, {0, 0.6}, kReal, kNumber, "01", "BaseSize", "fraction of the stem below its first child",
    {.role = {Role::crown_base}, .plain = {0, 0}}},
   {&P::down_angle, "down_angle", "deg", {-360, 360}, {-10, 140}, kReal, kNumber, "123", "nDownAngle", "angle of a stem away from its parent",
-   {.places = true, .plain = {0, 50}}},
+   {.places = true, .owner = kOfBearer, .plain = {0, 50}}},
   {&P::down_angle_v, "down_angle_v", "deg", {-360, 360}, {-90, 60}, kReal, kFlag, "12", "nDownAngleV", "variation of down_angle; negative: changes along the parent, lower stems pointing further down",
-   {.places = true, .plain = {0, 0}}},
+   {.places = true, .owner = kOfBearer, .plain = {0, 0}}},
   {&P::rotate, "rotate", "deg", {-360, 360}, {-180, 180}, kReal, kFlag, "1", "nRotate", "angle about the parent from one stem to the next; negative: on alternate sides; the spread of a fan",
-   {.sides = FlagSides::unrelated, .places = true, .plain = {180, 180}}},
+   {.sides = FlagSides::unrelated, .places = true, .owner = kOfBearer, .plain = {180, 180}}},
   {&P::rotate_v, "rotate_v", "deg", {-360, 360}, {0, 90}, kReal, kNumber, "", "nRotateV", "largest variation of rotate",
-   {.places = true, .plain = {0, 0}}},
+   {.places = true, .owner = kOfBearer, .plain = {0, 0}}},
   {&P::branches, "branches", "1", {-1000, 1000}, {1, 120}, kWhole, kFlag, "123", "nBranches", "most stems of this level on each parent; negative: that many in a fan at its tip; level 0: trunks from the ground",
-   {.trunk_valid = Range{1, 1000}, .sides = FlagSides::one_measure, .relaxable = true, .role = {Role::trunk_count, Role::branch_count}, .plain = {{}, 2}}},
+   {.trunk_valid = Range{1, 1000}, .sides = FlagSides::one_measure, .relaxable = true, .owner = kOfBearer, .role = {Role::trunk_count, Role::branch_count}, .plain = {{}, 2}}},
   {&P::length, "length", "1", {0, 10}, {0.02, 1.2}, kReal, kNumber, "123", "nLength", "length of a stem relative to its parent's",
-   {.role = {Role::trunk_form, Role::branch_length}, .plain = {1, 0.5}}},
+   {.owner = {Owner::stem, Owner::bearer}, .role = {Role::trunk_form, Role::branch_length}, .plain = {1, 0.5}}},
   {&P::length_v, "length_v", "1", {0, 10}, {0, 0.3}, kReal, kNumber, "1", "nLengthV", "largest variation of length",
-   {.role = {Role::trunk_form}, .plain = {0, 0}}},
+   {.owner = {Owner::stem, Owner::bearer}, .role = {Role::trunk_form}, .plain = {0, 0}}},
   {&P::taper, "taper", "1", {0, 3}, {0.5, 2}, kReal, kNumber, "0", "nTaper", "0 a cylinder, 1 a cone, 2 a rounded end, up to 3 periodic swelling",
    {.codec = taper_codec, .role = {Role::trunk_taper}, .plain = {0.75, 0.75}}},
   {&P::seg_splits, "seg_splits", "1", {0, 4}, {0, 1.5}, kReal, kNumber, "01", "nSegSplits", "clones at each segment end, fractions spread along the stem",
@@ -145,13 +152,13 @@ const Definition kDefinitions[] = {
   {&P::bend_v, "bend_v", "deg", {0, 1000}, {0, 200}, kReal, kNumber, "1", "nBendV", "largest sideways bend from start to end",
    {.role = {Role::trunk_form}, .plain = {0, 0}}},
   {&P::branch_dist, "branch_dist", "1", {0, 50}, {0, 4}, kReal, kNumber, "", "", "0 alternate, 1 opposite, above 1 whorls of branch_dist + 1 stems",
-   {.places = true, .plain = {0, 0}}},
+   {.places = true, .owner = kOfBearer, .plain = {0, 0}}},
   {&P::radius_mod, "radius_mod", "1", {0, 20}, {0.1, 3}, kLog, kNumber, "12", "", "factor on the radius of stems",
    {.role = {Role::trunk_form, Role::branch_radius}, .plain = {1, 1}}},
   {&P::leaf_blos_num, "leaf_blos_num", "1", {-2000, 10000}, {0, 120}, kWhole, kFlag, "*", "Leaves", "leaves or blossom on each stem of the last level; negative: in a fan at its tip",
    {.sides = FlagSides::one_measure, .relaxable = true, .role = {Role::leaf_count}}},
   {&P::leaf_shape, "leaf_shape", "1", {0, kLeafShapes.size()}, {0, kLeafShapes.size()}, kChoice, kNumber, "", "LeafShape", "outline of a leaf",
-   {.choices = kLeafChoices, .needs = {{"leaf_blos_num"}}}},
+   {.choices = kLeafChoices, .needs = {{"leaf_blos_num"}}, .owner = kOfPlant}},
   {&P::leaf_scale, "leaf_scale", "m", {0, 50}, {0.03, 0.5}, kLog, kNumber, "*", "LeafScale", "length of a leaf",
    {.needs = {{"leaf_blos_num"}}, .role = {Role::leaf_length}}},
   {&P::leaf_scale_x, "leaf_scale_x", "1", {0, 50}, {0.05, 1.5}, kLog, kNumber, "*", "LeafScaleX", "width of a leaf relative to its outline's",
@@ -159,7 +166,7 @@ const Definition kDefinitions[] = {
   {&P::leaf_bend, "leaf_bend", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "LeafBend", "how far leaves turn to face outwards",
    {.needs = {{"leaf_blos_num"}}}},
   {&P::blossom_shape, "blossom_shape", "1", {1, kBlossomShapes.size()}, {1, kBlossomShapes.size()}, kChoice, kNumber, "", "", "form of a blossom",
-   {.choices = kBlossomShapes, .first_choice = 1, .needs = {{"blossom_rate"}}}},
+   {.choices = kBlossomShapes, .first_choice = 1, .needs = {{"blossom_rate"}}, .owner = kOfPlant}},
   {&P::blossom_scale, "blossom_scale", "m", {0, 50}, {0, 0.3}, kReal, kNumber, "", "", "size of a blossom",
    {.needs = {{"blossom_rate"}}}},
   {&P::blossom_rate, "blossom_rate", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "", "fraction of the leaves that are blossom",
@@ -171,16 +178,19 @@ const Definition kDefinitions[] = {
   {&P::tropism_z, "tropism_z", "1", {-100, 100}, {-4, 4}, kReal, kNumber, "*", "AttractionUp", "pull upwards of stems of level 2 and above",
    {.plain = {0}}},
   {&P::prune_ratio, "prune_ratio", "1", {0, 1}, {0, 1}, kReal, kNumber, "", "PruneRatio", "how far pruning to the envelope is applied",
-   {.plain = {0}}},
+   {.owner = kOfPlant, .plain = {0}}},
   {&P::prune_width, "prune_width", "1", {0, 10}, {0.05, 1}, kReal, kNumber, "", "PruneWidth", "radius of the envelope as a fraction of its height",
-   {.needs = {{"prune_ratio"}}}},
-  {&P::prune_width_peak, "prune_width_peak", "1", {0, 1}, {0.05, 0.95}, kReal, kNumber, "", "PruneWidthPeak", "where, from its bottom up, the envelope is widest"},
-  {&P::prune_power_low, "prune_power_low", "1", {0, 20}, {0.05, 2}, kReal, kNumber, "", "PrunePowerLow", "curvature of the envelope below its peak: under 1 convex, over 1 concave"},
-  {&P::prune_power_high, "prune_power_high", "1", {0, 20}, {0.05, 2}, kReal, kNumber, "", "PrunePowerHigh", "curvature of the envelope above its peak"},
+   {.needs = {{"prune_ratio"}}, .owner = kOfPlant}},
+  {&P::prune_width_peak, "prune_width_peak", "1", {0, 1}, {0.05, 0.95}, kReal, kNumber, "", "PruneWidthPeak", "where, from its bottom up, the envelope is widest",
+   {.owner = kOfPlant}},
+  {&P::prune_power_low, "prune_power_low", "1", {0, 20}, {0.05, 2}, kReal, kNumber, "", "PrunePowerLow", "curvature of the envelope below its peak: under 1 convex, over 1 concave",
+   {.owner = kOfPlant}},
+  {&P::prune_power_high, "prune_power_high", "1", {0, 20}, {0.05, 2}, kReal, kNumber, "", "PrunePowerHigh", "curvature of the envelope above its peak",
+   {.owner = kOfPlant}},
   {&P::relaxed_counts, "relaxed_counts", "1", {0, 1}, {0, 1}, kChoice, kNumber, "", "", "on: counts may be fractions, and the last child grows in proportion, so that searches see no jumps",
-   {.choices = kSwitch, .role = {Role::relaxed_counts}}},
+   {.choices = kSwitch, .owner = kOfPlant, .role = {Role::relaxed_counts}}},
   {&P::crown_use, "crown_use", "1", {0, 3}, {0, 3}, kChoice, kNumber, "", "", "what the crown envelope of the crown_… rows does: nothing; cut stems; give stems on the trunk their lengths; bend stems along it",
-   {.choices = kCrownUses, .part_of = "crown_use", .plain = {0}}},
+   {.choices = kCrownUses, .part_of = "crown_use", .owner = kOfPlant, .plain = {0}}},
   {&P::crown_top, "crown_top", "1", {0.05, 3}, {0.5, 1.2}, kReal, kNumber, "", "", "height of the top of the crown envelope, relative to the scale of the tree",
    kOfCrown},
   {&P::crown_top_x, "crown_top_x", "1", {-0.7, 0.7}, {-0.5, 0.5}, kReal, kNumber, "", "", "how far the top lies along x, as a fraction of the radius on that side",
@@ -233,6 +243,7 @@ struct CurveDefinition {
   double neutral;
   std::array<const char*, 3> needs;  ///< as in Needs
   const char* help;
+  Owner owner = Owner::stem;
   bool places = false;  ///< as in Facts
 };
 
@@ -243,11 +254,11 @@ constexpr CurveRole kFactor = CurveRole::factor, kOffset = CurveRole::offset, kD
 // clang-format off
 const CurveDefinition kCurveDefinitions[] = {
   {&C::density_along, "density_along", 1, "1", {0, 20}, {0.05, 2}, kOnParent, kDensity, 1, {},
-   "curve along the parent above its bare base: how densely stems stand, relative to the mean; their count stays"},
+   "curve along the parent above its bare base: how densely stems stand, relative to the mean; their count stays", Owner::bearer},
   {&C::length_along, "length_along", 1, "1", {0, 10}, {0.1, 2}, kOnParent, kFactor, 1, {},
-   "curve along the parent above its bare base: factor on the length of stems"},
+   "curve along the parent above its bare base: factor on the length of stems", Owner::bearer},
   {&C::down_angle_along, "down_angle_along", 1, "deg", {-360, 360}, {-60, 60}, kOnParent, kOffset, 0, {},
-   "curve along the parent above its bare base: added to down_angle", true},
+   "curve along the parent above its bare base: added to down_angle", Owner::bearer, true},
   {&C::curve_along, "curve_along", 0, "1", {-20, 20}, {-1, 3}, kAlong, kFactor, 1, {"curve[n]", "curve_back[n]", "curve_v[n]"},
    "curve along the stem: factor on its bend, by curve, curve_back and curve_v"},
   {&C::bend_along, "bend_along", 0, "deg", {-720, 720}, {-120, 120}, kAlong, kOffset, 0, {},
@@ -292,6 +303,14 @@ bool is_free(const Definition& definition, int level) {
   return level < 0 ? levels == "*" : levels.find(static_cast<char>('0' + level)) != levels.npos;
 }
 
+/// The levels above 3 have the rows of level 3.
+int deepest_branch(Owner owner, int level) {
+  if (owner == Owner::plant) return kNoBranch;
+  if (owner == Owner::trunk) return 0;
+  if (level < 0 || level == 3) return kAnyBranch;
+  return owner == Owner::stem ? level : level - 1;
+}
+
 /// float defaults as the decimal a person would write: 0.015f becomes 0.015.
 double decimal_of(float value) { return std::stod(fmt::format("{}", value)); }
 
@@ -321,6 +340,7 @@ ParameterInfo make_row(const Definition& definition, int level, float default_va
           .mixed_with = facts.mixed_with,
           .mixed_by = facts.mixed_by,
           .role = role_of(definition, level),
+          .deepest_branch = deepest_branch(facts.owner.at(level), level),
           .plain = facts.plain.at(level),
           .symbol = definition.symbol,
           .help = definition.help};
@@ -339,6 +359,7 @@ ParameterInfo make_curve_row(const CurveDefinition& definition, int level, int p
                     .default_value = definition.neutral,
                     .least_levels = definition.places ? level : level + 1,
                     .role = {level == 0 ? Role::trunk_form : Role::none},
+                    .deepest_branch = deepest_branch(definition.owner, level),
                     .plain = definition.neutral,
                     .help = definition.help};
   for (const char* need : definition.needs)

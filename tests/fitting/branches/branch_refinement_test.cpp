@@ -1,5 +1,8 @@
 // Refinement branch by branch: laws of a step, a round, and a whole fit that ends with it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <map>
 
 #include <espalier/core/error.h>
 #include <espalier/fitting/branches/branch_offsets.h>
@@ -8,6 +11,7 @@
 #include <espalier/fitting/task/plant_scorer.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
+#include <espalier/overrides/change_graph.h>
 #include <espalier/overrides/overrides_toml.h>
 #include <espalier/render/scanlines/scanline_renderer.h>
 
@@ -231,8 +235,8 @@ TEST(BranchRounds, GoOnFromWhatIsWrittenWithTheSameBits) {
   BranchRounds unbroken = begin_branch_rounds(small.task, {small.start()}, 10);
   refine_round(small.task, 5, 1, unbroken);
   refine_round(small.task, 5, 1, unbroken);
-  BranchRounds resumed =
-      branch_rounds_from_json(branch_rounds_to_json(unbroken, "weber_penn"), "branches.json");
+  BranchRounds resumed = branch_rounds_from_json(branch_rounds_to_json(unbroken, "weber_penn"),
+                                                 SmallTask::table(), "branches.json");
   refine_round(small.task, 5, 1, unbroken);
   refine_round(small.task, 5, 1, resumed);
   EXPECT_TRUE(same(unbroken, resumed));
@@ -258,15 +262,16 @@ std::string with_metrics(const std::string& metrics) {
 }
 
 TEST(BranchRounds, MeasuresOfEarlierVersionsAreReadByTheirPlaces) {
-  const BranchRounds old =
-      branch_rounds_from_json(with_metrics("[0.1,0.2,0.3,0.4,0.5,0.6,0.7]"), "branches.json");
+  const BranchRounds old = branch_rounds_from_json(with_metrics("[0.1,0.2,0.3,0.4,0.5,0.6,0.7]"),
+                                                   SmallTask::table(), "branches.json");
   const MaskMetrics& metrics = old.history.front().metrics;
   EXPECT_EQ(metrics["pixel_accuracy"], 0.1);
   EXPECT_EQ(metrics["outline_iou"], 0.5);
   EXPECT_EQ(metrics["truncated_distance"], 0.6);
   EXPECT_EQ(metrics["gap_iou"], 0.7);
-  EXPECT_THROW(branch_rounds_from_json(with_metrics("[0.1]"), "branches.json"), InputError);
-  EXPECT_THROW(branch_rounds_from_json(with_metrics("0.1"), "branches.json"), InputError);
+  EXPECT_THROW(branch_rounds_from_json(with_metrics("[0.1]"), SmallTask::table(), "branches.json"),
+               InputError);
+  EXPECT_THROW(branch_rounds_from_json(with_metrics("0.1"), SmallTask::table(), "branches.json"), InputError);
 }
 
 /// Two trees of trunks alone, so that rounds of other orders find nothing to refine; the second is worse.
@@ -317,7 +322,103 @@ TEST(BranchRounds, TheBestIsTheCopyOfTheLowestScore) {
 TEST(BranchRounds, TextThatIsNoStateIsRefused) {
   for (const char* text : {"", "{}", "[1]", "{\"rounds\": \"x\"}",
                            R"({"rounds":1,"steps":1,"search_evaluations":1,"search_limit":1,"lanes":[]})"})
-    EXPECT_THROW(branch_rounds_from_json(text, "branches.json"), InputError) << text;
+    EXPECT_THROW(branch_rounds_from_json(text, SmallTask::table(), "branches.json"), InputError) << text;
+}
+
+/// The tree's overrides as a file says them.
+void say(const std::string& text, Solution& solution) {
+  const toml::table document = parse_toml(text, "tree.toml");
+  read_overrides({document, "tree.toml"}, SmallTask::table(), solution.overrides);
+}
+
+using KnotsByPath = std::map<BranchPath, std::vector<std::pair<Vec3, float>>>;
+
+/// Of each stem its knots, places from its base, and radii.
+KnotsByPath knots_of(const SmallTask& small, const Solution& solution) {
+  const ChangeGraph graph(solution.overrides);
+  GrowthSettings growth;
+  growth.changes = &graph;
+  Plant plant;
+  small.task.model->generate(solution.values, solution.plant_seed, growth, plant);
+  KnotsByPath knots;
+  for (std::size_t stem = 0; stem < plant.stems.size(); ++stem)
+    for (std::size_t k = plant.stems.first_knot[stem]; k < plant.stems.first_knot[stem + 1]; ++k)
+      knots[path_of(plant, stem)].emplace_back(plant.knots.point_m[k], plant.knots.radius_m[k]);
+  return knots;
+}
+
+bool is_on(const BranchPath& path, const BranchPath& branch) {
+  return path.size() >= branch.size() && std::equal(branch.begin(), branch.end(), path.begin());
+}
+
+TEST(BranchRefinement, LeavesLockedBranchesAndAllOnThemAsTheyAre) {
+  const SmallTask small;
+  for (const char* path : {"0/9", "0/9..9", "0/@0.5..0.6"}) {
+    Solution solution = small.start();
+    say(fmt::format("[[branch]]\npath = \"{}\"\nlocked = true\n", path), solution);
+    solution.score = score_of(small.task, solution);
+    const KnotsByPath before = knots_of(small, solution);
+    for (const int order : {1, 2}) refine_branches(small.task, settings_of(order, 1500), solution);
+    const KnotsByPath after = knots_of(small, solution);
+    std::size_t as_before = 0, of_others = 0;
+    const bool is_of_index = std::string(path).find('@') == std::string::npos;
+    for (const auto& [stem, knots] : before) {
+      const bool is_same = after.contains(stem) && after.at(stem) == knots;
+      EXPECT_TRUE(is_same || !is_of_index || !is_on(stem, {0, 9})) << path << " " << to_string(stem);
+      if (stem.size() == 2) ++(is_same ? as_before : of_others);
+    }
+    EXPECT_GE(as_before, 1u) << path;
+    EXPECT_GE(of_others, 8u) << path;
+  }
+}
+
+/// They are carried along: of the length and the thickness that they had.
+TEST(BranchRefinement, WhatBearsALockedBranchTurnsAndBendsAlone) {
+  const SmallTask small;
+  Solution solution = small.start();
+  say("[[branch]]\npath = \"0/9/3\"\nlocked = true\n", solution);
+  solution.score = score_of(small.task, solution);
+  const KnotsByPath before = knots_of(small, solution);
+  ASSERT_TRUE(before.contains({0, 9, 3}));
+  for (int round = 0; round < 4; ++round)
+    for (const int order : {0, 1})
+      refine_branches(small.task, settings_of(order, 600, 10 + static_cast<Seed>(round)), solution);
+  const KnotsByPath after = knots_of(small, solution);
+  ASSERT_TRUE(after.contains({0, 9, 3}));
+  const auto& was = before.at({0, 9, 3});
+  const auto& is = after.at({0, 9, 3});
+  ASSERT_EQ(was.size(), is.size());
+  const auto long_m = [](const auto& knots) { return length(knots.back().first - knots.front().first); };
+  EXPECT_NEAR(long_m(is), long_m(was), 0.1 * long_m(was));  // tropism bends it as it stands now
+  EXPECT_NEAR(is.front().second, was.front().second, 0.02 * was.front().second);
+  EXPECT_NE(solution.overrides.find({0, 9}), nullptr);
+}
+
+TEST(BranchRefinement, AddsToWhatRangesAndSharedSetsSay) {
+  const SmallTask small;
+  Solution solution = small.start();
+  say("[shared.low]\nlength = { factor = 0.7 }\ntaper = 0.8\n[[branch]]\npath = \"0/6..13\"\nshares = "
+      "\"low\"\n"
+      "[[branch]]\npath = \"0/@0.6..0.9\"\ndown_angle = { offset = 15 }\n",
+      solution);
+  solution.score = score_of(small.task, solution);
+  const std::string ranges = overrides_to_toml({{}, solution.overrides.ranges, solution.overrides.shared});
+  const double before = solution.score;
+  refine_branches(small.task, settings_of(1, 2000), solution);
+  EXPECT_LT(solution.score, before - 0.02);
+  EXPECT_EQ(solution.score, score_of(small.task, solution));
+  EXPECT_EQ(overrides_to_toml({{}, solution.overrides.ranges, solution.overrides.shared}), ranges);
+  const ChangeGraph with(solution.overrides), without({solution.overrides.nodes, {}, {}});
+  int checked = 0;
+  for (const OverrideNode& node : solution.overrides.nodes) {
+    if (node.path.size() != 2 || node.path[1] < 6 || node.path[1] > 13) continue;
+    const auto length_of = [&](const ChangeGraph& graph) {
+      return changed(ChangeCursor(&graph).child(0).child(node.path[1], 0.1f).change(), Quantity::length, 1);
+    };
+    EXPECT_FLOAT_EQ(length_of(with), 0.7f * length_of(without)) << to_string(node.path);
+    ++checked;
+  }
+  EXPECT_GE(checked, 4);
 }
 
 }  // namespace

@@ -145,6 +145,16 @@ axiom: !(2*thick)F(tall/2)+(sway)F(tall/2)[+(50)!(thick)F(tall/4)][-(50)!(thick)
 )";
 }
 
+/// A traced tree would have nothing of the branch.
+TEST(BranchTracing, ATreeWithALockedBranchStaysTheStart) {
+  const FitTask task = task_of("tr_snowytree");
+  Solution start{.values = task.model->table().defaults()};
+  start.overrides.set_of(parse_branch_pattern("0/3..7", "test")).is_locked = true;
+  const Solution same = trace_branches(task, {.key = root_key(1)}, start);
+  EXPECT_EQ(same.values, start.values);
+  EXPECT_EQ(overrides_to_toml(same.overrides), overrides_to_toml(start.overrides));
+}
+
 TEST(BranchTracing, AnLsystemThatDeclaresRolesIsLaidOnThePicture) {
   FitTask task = task_of("tr_snowytree", 128);
   task.model = &lsystem_model_of("pole.lsys", swaying_pole("role tree_scale"));
