@@ -69,6 +69,7 @@ struct PictureChange {
   std::string prune_to;               ///< a volume [environment/volume.h], empty for none
   std::vector<std::string> objects;   ///< that stand beside the tree [environment/scene_object.h]
   std::string season;                 ///< of the picture [render/shading/seasons.h], empty: as the tree grows
+  std::optional<View> view;           ///< where it is taken from; none: as those of the sheet
 };
 
 struct PicturesDeclaration {

@@ -66,6 +66,7 @@ void read_surroundings(const TomlSection& section, PictureChange& change) {
       check_season(change.season);
       return 0;
     });
+  if (section.has("view")) change.view = parse_angles(section, "view", section.text("view"));
 }
 
 PictureChange read_change(const TomlSection& section, const PicturesDeclaration& sheet) {
@@ -111,6 +112,11 @@ std::vector<PictureChange> read_changes(const TomlSection& pictures, const std::
   return changes;
 }
 
+std::string describe(const View& view) {
+  return fmt::format("{},{},{},{}", view.azimuth_deg, view.elevation_deg, view.field_of_view_deg,
+                     static_cast<int>(view.projection));
+}
+
 std::string describe(const PictureChange& change) {
   std::vector<std::string> parts;
   parts.reserve(change.set.size() + 6);
@@ -123,6 +129,7 @@ std::string describe(const PictureChange& change) {
   if (!change.objects.empty())
     parts.push_back(fmt::format("objects = [{}]", fmt::join(change.objects, ", ")));
   if (!change.season.empty()) parts.push_back("season = " + change.season);
+  if (change.view) parts.push_back("view = " + describe(*change.view));
   return fmt::format("{{{}}}", fmt::join(parts, ", "));
 }
 
@@ -147,6 +154,7 @@ PictureChange merged(const PictureChange& row, const PictureChange& column) {
   if (!column.blend_with.empty()) change.blend_with = column.blend_with, change.t = column.t;
   if (!column.prune_to.empty()) change.prune_to = column.prune_to;
   if (!column.season.empty()) change.season = column.season;
+  if (column.view) change.view = column.view;
   change.objects.insert(change.objects.end(), column.objects.begin(), column.objects.end());
   return change;
 }

@@ -14,6 +14,9 @@ namespace espalier {
 std::vector<PictureChange> read_changes(const TomlSection& pictures, const std::string& key,
                                         const PicturesDeclaration& sheet);
 
+/// A view as text that differs where it does.
+std::string describe(const View& view);
+
 /// The change without its label, in words.
 std::string describe(const PictureChange& change);
 

@@ -70,11 +70,7 @@ std::vector<ExperimentKey<Declaration>> keys_of_the_view() {
        [](const TomlSection& pictures, Declaration& declaration) {
          declaration.view = parse_angles(pictures, "view", pictures.text("view"));
        },
-       unchanged<Declaration>([](const Declaration& declaration) {
-         const View& view = declaration.view;
-         return fmt::format("{},{},{},{}", view.azimuth_deg, view.elevation_deg, view.field_of_view_deg,
-                            static_cast<int>(view.projection));
-       })},
+       unchanged<Declaration>([](const Declaration& declaration) { return describe(declaration.view); })},
       {{"ground", "true or false", "false", "a lawn; it is seen from above only"},
        [](const TomlSection& pictures, Declaration& declaration) {
          declaration.ground = pictures.flag("ground");
@@ -115,6 +111,8 @@ const std::vector<KeyDescription>& change_keys() {
       {"objects", "meshes, as `--object`", "", "that stand beside the tree, too"},
       {"season", fmt::format("{}", fmt::join(season_names(), ", ")), "as the tree grows",
        "of the picture: coloured leaves, none, or young ones"},
+      {"view", "AZIMUTH,ELEVATION[,FIELD_OF_VIEW], degrees", "that of the sheet",
+       "where the picture is taken from"},
   };
   return keys;
 }

@@ -9,6 +9,7 @@
 #include <espalier/experiments/runner/picture_runs.h>
 #include <espalier/fitting/species_space/blend.h>
 #include <espalier/image/pictures/picture.h>
+#include <espalier/models/grow_preset.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 #include <espalier/render/shading/seasons.h>
@@ -30,12 +31,7 @@ Plant grow(const PicturesDeclaration& pictures, const PictureChange& change) {
   if (!change.blend_with.empty()) blend_into(model, load_preset(change.blend_with), change.t, preset.values);
   for (const auto& [name, value] : change.set) preset.values[model.table().index_of(name)] = value;
   const auto volume = change.prune_to.empty() ? nullptr : parse_volume(change.prune_to);
-  GrowthSettings settings;
-  settings.prune_to = volume.get();
-  Plant plant;
-  if (!model.generate(preset.values, pictures.seed, settings, plant).grown)
-    throw_input_error("{}: got a tree beyond the growth budget, expected a smaller one", preset.name);
-  return plant;
+  return grow_preset(preset, preset.name, {.seed = pictures.seed, .prune_to = volume.get()});
 }
 
 SceneObjects objects_in(const PicturesDeclaration& pictures, const PictureChange& change) {
@@ -46,10 +42,10 @@ SceneObjects objects_in(const PicturesDeclaration& pictures, const PictureChange
 }
 
 /// The whole scene, or a frame of a fixed size whose foot is a twentieth above the bottom edge.
-Camera camera_for(const PicturesDeclaration& pictures, const Bounds& scene) {
+Camera camera_for(const PicturesDeclaration& pictures, const View& view, const Bounds& scene) {
   const int size = pictures.size_px;
-  if (pictures.frame_m == 0) return frame_bounds(scene, pictures.view, size, size);
-  return frame_base({}, pictures.view, static_cast<float>(pictures.frame_m / size), size, size,
+  if (pictures.frame_m == 0) return frame_bounds(scene, view, size, size);
+  return frame_base({}, view, static_cast<float>(pictures.frame_m / size), size, size,
                     0.95f * static_cast<float>(size));
 }
 
@@ -59,7 +55,7 @@ Measured draw(const PicturesDeclaration& pictures, const PictureChange& change, 
   ShadedSettings shading;
   shading.ground = pictures.ground;
   if (!change.season.empty()) apply_season(change.season, plant, shading);
-  const Camera camera = camera_for(pictures, bounds(plant, objects));
+  const Camera camera = camera_for(pictures, change.view.value_or(pictures.view), bounds(plant, objects));
   fs::create_directories(directory);
   write_png(directory / "picture.png", render_shaded(plant, camera, shading, objects));
   return {

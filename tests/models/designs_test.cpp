@@ -42,12 +42,8 @@ TEST_P(Designs, HaveShortFilesAndADescription) {
 }
 
 TEST_P(Designs, OverrideBranchesThatGrow) {
-  const Plant plant = grow_preset(preset_, GetParam());
-  std::vector<BranchPath> grown;
-  for (std::size_t stem = 0; stem < plant.stems.size(); ++stem) grown.push_back(path_of(plant, stem));
   EXPECT_FALSE(preset_.overrides.empty());
-  for (const OverrideNode& node : preset_.overrides.nodes)
-    EXPECT_THAT(grown, testing::Contains(node.path)) << to_string(node.path);
+  EXPECT_THAT(count_overridden(preset_, GetParam()), testing::Each(testing::Gt(0U)));
 }
 
 /// .6 m in a pot, or 6 m in a garden: lengths in metres change, and nothing else.

@@ -48,6 +48,7 @@ const Samples kChanges{
     {"objects",
      {"['mesh:box.obj']", {"['mesh:none.obj']", "['mesh:open.obj']", "['house.obj']", "'mesh:box.obj'"}}},
     {"season", {"'autumn'", {"'monsoon'", "''"}}},
+    {"view", {"'90,0'", {"'from above'", "7"}}},
 };
 const Samples kGrowth{
     {"species", {"['acer']", {"[]", "['oak_of_nowhere']", "'acer'", "['acer', 'acer']"}}},
