@@ -397,9 +397,9 @@ TEST(BranchRefinement, WhatBearsALockedBranchTurnsAndBendsAlone) {
 TEST(BranchRefinement, AddsToWhatRangesAndSharedSetsSay) {
   const SmallTask small;
   Solution solution = small.start();
-  say("[shared.low]\nlength = { factor = 0.7 }\ntaper = 0.8\n[[branch]]\npath = \"0/6..13\"\nshares = "
+  say("[shared.low]\nlength = { factor = 0.35 }\ntaper = 0.8\n[[branch]]\npath = \"0/6..13\"\nshares = "
       "\"low\"\n"
-      "[[branch]]\npath = \"0/@0.6..0.9\"\ndown_angle = { offset = 15 }\n",
+      "[[branch]]\npath = \"0/@0.6..0.9\"\ndown_angle = { offset = 50 }\n",
       solution);
   solution.score = score_of(small.task, solution);
   const std::string ranges = overrides_to_toml({{}, solution.overrides.ranges, solution.overrides.shared});
@@ -415,7 +415,7 @@ TEST(BranchRefinement, AddsToWhatRangesAndSharedSetsSay) {
     const auto length_of = [&](const ChangeGraph& graph) {
       return changed(ChangeCursor(&graph).child(0).child(node.path[1], 0.1f).change(), Quantity::length, 1);
     };
-    EXPECT_FLOAT_EQ(length_of(with), 0.7f * length_of(without)) << to_string(node.path);
+    EXPECT_FLOAT_EQ(length_of(with), 0.35f * length_of(without)) << to_string(node.path);
     ++checked;
   }
   EXPECT_GE(checked, 4);
