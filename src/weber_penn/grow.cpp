@@ -288,7 +288,7 @@ float Growth::shaped_length_m(const GrowingStem& parent, const ChildSite& site) 
 }
 
 void Growth::grow_child(const GrowingStem& parent, std::int32_t parent_index, const ChildSite& site) {
-  if (site.parent_radius_m < kThinnestParentM) return;
+  if (site.parent_radius_m < thinnest_parent_m(parameters(parent))) return;
   const int level = parent.level + 1;
   const BranchChange* change = site.cursor.change();
   GrowingStem child;

@@ -113,8 +113,9 @@ bool TwigBatch::surely_fits(const GrowingStem& stem) const {
 
 void TwigBatch::flush() {
   HWY_DYNAMIC_DISPATCH(make_stems)(p_, parent_level_ + 1, parents_, waiting_, made_);
+  const float thinnest_m = thinnest_parent_m(p_);
   for (std::size_t row = 0; row < static_cast<std::size_t>(waiting_.count); ++row) {
-    if (waiting_.parent_radius_m[row] < kThinnestParentM || made_.length_m[row] < kShortestStemM) continue;
+    if (waiting_.parent_radius_m[row] < thinnest_m || made_.length_m[row] < kShortestStemM) continue;
     GrowingStem& stem = add_made(row);
     if (surely_fits(stem)) continue;
     const float length_m = pruned_length_m(stem, p_, settings_.prune_to);
