@@ -223,7 +223,7 @@ const Definition kDefinitions[] = {
    kOfCrown},
   {&P::crown_shape_below, "crown_shape_below", "1", {0.1, 20}, {0.5, 6}, kLog, kNumber, "", "", "how the crown bulges below its rim: 1 a cone, 2 an ellipsoid, under 1 hollow",
    kOfCrown},
-  {&P::least_radius_mm, "least_radius", "mm", {0, 1000}, {0.5, 20}, kLog, kNumber, "", "", "least radius of a branch at its base, where its parent is no thinner",
+  {&P::least_radius_mm, "least_radius", "mm", {0, 1000}, {0.5, 20}, kLog, kNumber, "", "", "least radius of a branch at its base, where its parent is no thinner; a stem bears nothing where it is thinner than a fiftieth of that",
    {.says_nothing_at_default = true}},
 };
 // clang-format on

@@ -27,8 +27,17 @@ void expect_refused(const std::string& content, const std::string& message) {
 TEST(SpeciesCommand, ListsEveryBundledPresetOnALine) {
   const ProgramRun run = run_espalier("species");
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 19);
-  EXPECT_THAT(run.out, HasSubstr("quaking_aspen    13 ± 3 m     Quaking aspen (Populus tremuloides)\n"));
+  EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 19 + 2 + 6) << "species, a heading, designs";
+  EXPECT_THAT(run.out, HasSubstr("quaking_aspen       13 ± 3 m     Quaking aspen (Populus tremuloides)\n"));
+  EXPECT_THAT(run.out, HasSubstr("\n\nDesigned branch by branch, and no species:\nbonsai_bunjin"));
+}
+
+TEST(SpeciesCommand, PrintsTheDecompositionGraphOfADesign) {
+  const ProgramRun run = run_espalier("species bonsai_nejikan");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out,
+              HasSubstr("# 0: axis of 10 points in the frame of the parent\n#   0/7: shares left\n"));
+  EXPECT_THAT(run.out, testing::Not(HasSubstr("dormant")));
 }
 
 TEST(SpeciesCommand, PrintsAPresetThatLoadsBackWithUnitsAndHelp) {
