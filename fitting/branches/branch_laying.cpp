@@ -52,24 +52,75 @@ std::vector<AxisPoint> fitted_axis(const std::vector<AxisPoint>& line, double le
   return points;
 }
 
-double pixels_along(const std::vector<PixelPoint>& line) {
-  double sum = 0;
+std::vector<double> lengths_along_px(const std::vector<PixelPoint>& line) {
+  std::vector<double> lengths{0};
+  lengths.reserve(line.size());
   for (std::size_t i = 1; i < line.size(); ++i)
-    sum += std::hypot(line[i].x - line[i - 1].x, line[i].y - line[i - 1].y);
-  return sum;
+    lengths.push_back(lengths.back() + std::hypot(line[i].x - line[i - 1].x, line[i].y - line[i - 1].y));
+  return lengths;
+}
+
+/// At `at`, of values at these places, which ascend.
+double value_at(const std::vector<double>& places, const std::vector<double>& values, double at) {
+  const auto above = std::upper_bound(places.begin() + 1, places.end() - 1, at) - places.begin();
+  const auto after = static_cast<std::size_t>(above);
+  const double piece = places[after] - places[after - 1];
+  const double share = piece > 0 ? std::clamp((at - places[after - 1]) / piece, 0.0, 1.0) : 1.0;
+  return std::lerp(values[after - 1], values[after], share);
+}
+
+double share_of(std::size_t index, std::size_t count) {
+  return static_cast<double>(index) / static_cast<double>(count - 1);
+}
+
+/// Means over the neighbours on both sides, as far as there are any.
+std::vector<double> smoothed(const std::vector<double>& values, std::size_t neighbours) {
+  std::vector<double> result(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t on_each_side = std::min({neighbours, i, values.size() - 1 - i});
+    for (std::size_t k = i - on_each_side; k <= i + on_each_side; ++k) result[i] += values[k];
+    result[i] /= static_cast<double>(2 * on_each_side + 1);
+  }
+  return result;
+}
+
+/// Shares of the length of a line, 0 to 1, for points to which an axis is fitted: closer where it bends, so
+/// that the axis has more of its own there.
+std::vector<double> shares_by_bends(const std::vector<PixelPoint>& line, std::size_t count) {
+  constexpr std::size_t kDense = 192, kSmooth = 4;
+  const std::vector<PixelPoint> points = evenly_spaced(line, kDense);
+  std::vector<double> x, y, bends(kDense, 0), places{0};
+  for (const PixelPoint point : points) x.push_back(point.x), y.push_back(point.y);
+  x = smoothed(smoothed(x, kSmooth), kSmooth), y = smoothed(smoothed(y, kSmooth), kSmooth);
+  double sum = 0;
+  for (std::size_t i = 1; i + 1 < kDense; ++i) {
+    const double ax = x[i] - x[i - 1], ay = y[i] - y[i - 1], bx = x[i + 1] - x[i], by = y[i + 1] - y[i];
+    bends[i] = std::fabs(std::atan2(ax * by - ay * bx, ax * bx + ay * by));
+    sum += bends[i];
+  }
+  bends = smoothed(smoothed(bends, kSmooth), kSmooth);
+  for (std::size_t i = 1; i < kDense; ++i) {
+    const double bend = 0.5 * (bends[i - 1] + bends[i]) / std::max(sum, kLaying.least_bend);
+    places.push_back(places.back() + 1 / static_cast<double>(kDense - 1) + kLaying.to_bends * bend);
+  }
+  std::vector<double> even(kDense), shares(count);
+  for (std::size_t i = 0; i < kDense; ++i) even[i] = share_of(i, kDense);
+  for (std::size_t i = 0; i < count; ++i)
+    shares[i] = value_at(places, even, share_of(i, count) * places.back());
+  return shares;
 }
 
 }  // namespace
 
-BranchOffsets BranchLayer::lay(const LineInPicture& line, const BranchPath& path, const Solution& tree) {
+LaidBranch BranchLayer::lay(const LineInPicture& line, const BranchPath& path, const Solution& tree) {
   Solution one = branch_alone(path, tree);
-  BranchOffsets branch{.path = path};
+  LaidBranch laid{{.path = path}, {}, {}};
   if (path.size() > 1) {
-    move_to_start(line, branch, one);
-    choose_side(line, branch, one);
+    move_to_start(line, laid.offsets, one);
+    choose_side(line, laid.offsets, one);
   }
-  if (follow_line(line, branch, one)) set_radius(line.width_px, branch, one);
-  return branch;
+  if (follow_line(line, laid.offsets, one) && !line.widths_px.empty()) set_radius(laid, one);
+  return laid;
 }
 
 /// Grows the branch alone; false where there is none.
@@ -125,13 +176,23 @@ void BranchLayer::move_to_start(const LineInPicture& line, BranchOffsets& branch
 
 /// The line in space, from this depth on.
 void BranchLayer::lift_line(const LineInPicture& line, double depth_m) {
-  const std::vector<PixelPoint> points = evenly_spaced(line.points, kLaying.points);
-  const double chord_px = std::hypot(points.back().x - points.front().x, points.back().y - points.front().y);
-  const double deeper_m = line.outward * chord_px * task_.views[0].metres_per_px;
+  shares_ = shares_by_bends(line.points, kLaying.points);
+  const std::vector<double> at_px = lengths_along_px(line.points);
+  std::vector<double> x_px, y_px;
+  for (const PixelPoint point : line.points) x_px.push_back(point.x), y_px.push_back(point.y);
+  const std::vector<double> widths_px(line.widths_px.begin(), line.widths_px.end());
+  const double metres_per_px = task_.views[0].metres_per_px;
+  const double foot_depth_m = project(task_.views[0].camera, {0, 0, 0}).depth_m;
   line_m_.clear();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(points.size() - 1);
-    line_m_.push_back(unprojected(task_.views[0].camera, points[i], depth_m + share * deeper_m));
+  radius_m_.clear();
+  for (const double share : shares_) {
+    const auto here = [&](const std::vector<double>& values) {
+      return values.empty() ? 0 : value_at(at_px, values, share * at_px.back());
+    };
+    const double at_m = depth_m + here(line.deeper_px) * metres_per_px;
+    const PixelPoint point{static_cast<float>(here(x_px)), static_cast<float>(here(y_px))};
+    line_m_.push_back(unprojected(task_.views[0].camera, point, at_m));
+    radius_m_.push_back(0.5 * here(widths_px) * metres_per_px * at_m / foot_depth_m);
   }
 }
 
@@ -162,17 +223,16 @@ bool BranchLayer::follow_line(const LineInPicture& line, BranchOffsets& branch, 
   const double grown_m = ArcLengths(plant_).of_stem_m(plant_.stems, 0);
   if (branch.path.size() == 1) lift_line(line, project(task_.views[0].camera, *base_m).depth_m);
   const std::size_t least = kAxisCounts.back() + 1;
-  const std::size_t first = std::min(nearest(line_m_, *base_m), line_m_.size() - least);
+  first_ = std::min(nearest(line_m_, *base_m), line_m_.size() - least);
   std::vector<AxisPoint> beyond;
-  beyond.reserve(line_m_.size() - first);
-  for (std::size_t i = first; i < line_m_.size(); ++i) {
+  beyond.reserve(line_m_.size() - first_);
+  for (std::size_t i = first_; i < line_m_.size(); ++i) {
     const Vec3 from_base_m = line_m_[i] - *base_m;
     beyond.push_back({from_base_m.x, from_base_m.y, from_base_m.z});
   }
-  const double share = static_cast<double>(beyond.size()) / static_cast<double>(line_m_.size());
-  const double tolerance_px = std::max(kLaying.tolerance_px, kLaying.tolerance * line.width_px);
-  std::vector<AxisPoint> points =
-      fitted_axis(beyond, share * pixels_along(line.points), tolerance_px * task_.views[0].metres_per_px);
+  const double share = 1 - shares_[first_];
+  std::vector<AxisPoint> points = fitted_axis(beyond, share * lengths_along_px(line.points).back(),
+                                              kLaying.tolerance_px * task_.views[0].metres_per_px);
   const double length_m = AxisArcs(make_axis(points)).length();
   for (AxisPoint& point : points) point = point * (1 / length_m);
   branch.axis = DrawnAxis{std::move(points), AxisFrame::world};
@@ -180,13 +240,54 @@ bool BranchLayer::follow_line(const LineInPicture& line, BranchOffsets& branch, 
   return true;
 }
 
-void BranchLayer::set_radius(double width_px, BranchOffsets& branch, Solution& one) {
-  if (!grow(branch, one)) return;
-  const double grown_m = plant_.knots.radius_m[plant_.stems.first_knot[0]];
-  const double seen_m = 0.5 * width_px * task_.views[0].metres_per_px;
-  const std::size_t radius = branch.at.size() - 1;
-  if (grown_m > 0)
-    branch.at[radius] = clamped(radius, std::log(seen_m / grown_m) / kBranchDimensions[radius].range);
+/// The radius at the base, by least squares of the radii along the line.
+void BranchLayer::set_radius(LaidBranch& laid, Solution& one) {
+  if (!grow(laid.offsets, one)) return;
+  laid.grown_radius_m = radii_along_m();
+  double squares = 0, products = 0;
+  for (std::size_t i = 0; i < laid.grown_radius_m.size(); ++i) {
+    const double place = share_of(i, laid.grown_radius_m.size());
+    laid.wanted_radius_m.push_back(value_at(shares_, radius_m_, std::lerp(shares_[first_], 1.0, place)));
+    squares += laid.grown_radius_m[i] * laid.grown_radius_m[i];
+    products += laid.grown_radius_m[i] * laid.wanted_radius_m[i];
+  }
+  if (!(products > 0)) return;
+  const double factor = products / squares;
+  for (double& radius_m : laid.grown_radius_m) radius_m *= factor;
+  const std::size_t radius = laid.offsets.at.size() - 1;
+  laid.offsets.at[radius] = std::log(factor) / kBranchDimensions[radius].range;
+}
+
+/// By trying: what halves the radius where it is a half.
+const CurveInfo* BranchLayer::radius_curve(const BranchPath& path, const Solution& tree) {
+  constexpr double kHalf = 0.5;
+  Solution one = branch_alone(path, tree);
+  if (!grow({.path = path}, one)) return nullptr;
+  const double neutral_m = radii_along_m().front();
+  for (const CurveInfo& curve : task_.model->table().curves) {
+    if (curve.level + 1 != static_cast<int>(path.size()) || curve.argument != CurveArgument::along_itself ||
+        curve.role != CurveRole::factor)
+      continue;
+    Solution halved = one;
+    std::fill_n(halved.values.begin() + static_cast<std::ptrdiff_t>(curve.first_row), kCurveRows, kHalf);
+    if (grow({.path = path}, halved) &&
+        std::fabs(radii_along_m().front() - kHalf * neutral_m) < 0.01 * neutral_m)
+      return &curve;
+  }
+  return nullptr;
+}
+
+/// Of the branch that was grown last, at places evenly spaced along it.
+std::vector<double> BranchLayer::radii_along_m() const {
+  const std::size_t begin = plant_.stems.first_knot[0], end = plant_.stems.first_knot[1];
+  std::vector<double> at_m{0}, radius_m{plant_.knots.radius_m[begin]}, result;
+  for (std::size_t k = begin + 1; k < end; ++k) {
+    at_m.push_back(at_m.back() + length(plant_.knots.point_m[k] - plant_.knots.point_m[k - 1]));
+    radius_m.push_back(plant_.knots.radius_m[k]);
+  }
+  for (std::size_t i = 0; i < kLaying.points; ++i)
+    result.push_back(value_at(at_m, radius_m, share_of(i, kLaying.points) * at_m.back()));
+  return result;
 }
 
 }  // namespace espalier

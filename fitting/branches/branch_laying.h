@@ -1,7 +1,7 @@
 // Laying a branch on a line of the picture: it gets an axis (overrides/drawn_axis.h) in the world's frame, by
-// linear least squares, and the length of that. What grows is looked at a few times: to move the branch along
-// its parent to where the line begins, to choose the side of the parent that it stands on, and to see how
-// long and how thick it is. How deep it goes no silhouette says: that is given.
+// linear least squares, the length of that, and the radii. What grows is looked at a few times: to move the
+// branch along its parent to where the line begins, to choose the side of the parent that it stands on, and
+// to see how long and how thick it is. How deep it goes no silhouette says: that is given.
 #pragma once
 #include <optional>
 #include <vector>
@@ -14,8 +14,15 @@ namespace espalier {
 
 struct LineInPicture {
   std::vector<PixelPoint> points;  ///< from base to tip, in the first view
-  double width_px = 0;             ///< at its base, of the branch that is to lie there
-  double outward = 0;  ///< how far its tip is from the viewer, over the distance of its ends in the picture
+  std::vector<float> widths_px;    ///< at the points, of the branch that is to lie there; none: its own
+  std::vector<double> deeper_px;   ///< how much further from the viewer than its base; none: not at all
+};
+
+/// How a branch has to be changed to lie on a line, and how thick it is then and should be, at places evenly
+/// spaced along it; nothing of what does not grow or of lines without widths.
+struct LaidBranch {
+  BranchOffsets offsets;
+  std::vector<double> grown_radius_m, wanted_radius_m;
 };
 
 class BranchLayer {
@@ -24,7 +31,11 @@ class BranchLayer {
 
   /// The offsets and the axis with which the branch of this path of `tree` lies on the line. Those of a
   /// branch that does not grow are none.
-  BranchOffsets lay(const LineInPicture& line, const BranchPath& path, const Solution& tree);
+  LaidBranch lay(const LineInPicture& line, const BranchPath& path, const Solution& tree);
+
+  /// The curve of the model that multiplies the radius along branches of this one's level; nullptr where it
+  /// has none, or the branch does not grow.
+  const CurveInfo* radius_curve(const BranchPath& path, const Solution& tree);
 
   /// How often lay() has grown a branch.
   long evaluations() const { return evaluations_; }
@@ -36,11 +47,15 @@ class BranchLayer {
   void lift_line(const LineInPicture& line, double depth_m);
   void choose_side(const LineInPicture& line, BranchOffsets& branch, Solution& one);
   bool follow_line(const LineInPicture& line, BranchOffsets& branch, Solution& one);
-  void set_radius(double width_px, BranchOffsets& branch, Solution& one);
+  void set_radius(LaidBranch& laid, Solution& one);
+  std::vector<double> radii_along_m() const;
 
   const FitTask& task_;
   Plant plant_;
-  std::vector<Vec3> line_m_;  ///< in space, evenly spaced
+  std::vector<Vec3> line_m_;      ///< in space
+  std::vector<double> shares_;    ///< of its length, of its points
+  std::vector<double> radius_m_;  ///< at its points
+  std::size_t first_ = 0;         ///< point of the line at which the branch begins
   long evaluations_ = 0;
 };
 

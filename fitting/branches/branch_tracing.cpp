@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include <espalier/core/curves/curve.h>
+#include <espalier/fitting/branches/branch_depths.h>
 #include <espalier/fitting/branches/branch_laying.h>
 #include <espalier/fitting/branches/branch_refinement.h>
 #include <espalier/fitting/branches/branch_tracing.h>
@@ -12,10 +15,8 @@ namespace espalier {
 
 namespace {
 
-constexpr int kDeepest = 4;           ///< levels of branching
-constexpr double kMostOutward = 0.7;  ///< depth over length in the picture, of a branch on a branch
-constexpr double kSteepest = 1.2;     ///< the same, of a branch on the trunk
-constexpr std::size_t kBuds = 4;      ///< on each branch: where refinement may add what was not traced
+constexpr std::size_t kDeepest = 4;  ///< levels of branching
+constexpr std::size_t kBuds = 4;     ///< on each branch: where refinement may add what was not traced
 
 /// A tree whose branches are all alike and none at random, so that overrides say what each is. False where
 /// the model does not say by roles how long and how thick its trunk is.
@@ -33,21 +34,38 @@ bool make_plain(const ParameterTable& table, const MedialAxis& trunk, double met
           set_role(table, {Role::trunk_radius}, in_own_units(table, ratio * length_m, values), values));
 }
 
+/// The radii of all branches of a level, place by place.
+struct Level {
+  const CurveInfo* radius_curve = nullptr;
+  std::vector<double> products, squares;  ///< of wanted and grown, of grown
+};
+
 class Tracer {
  public:
   Tracer(const FitTask& task, const TracingSettings& settings, std::vector<MedialAxis> axes, Solution& traced)
-      : key_(settings.key), axes_(std::move(axes)), traced_(traced), layer_(task) {
+      : table_(task.model->table()),
+        axes_(std::move(axes)),
+        deeper_px_(branch_depths_px(axes_, settings.key)),
+        traced_(traced),
+        layer_(task) {
     children_.resize(axes_.size());
-    auto [left_px, right_px] = std::pair(axes_[0].points[0].x, axes_[0].points[0].x);
-    for (const MedialAxis& axis : axes_)
-      for (const PixelPoint& point : axis.points)
-        left_px = std::min(left_px, point.x), right_px = std::max(right_px, point.x);
-    half_width_px_ = 0.5 * (right_px - left_px);
+    for (std::vector<double>& deeper : deeper_px_) {
+      const double base_px = deeper.front();
+      for (double& at : deeper) at -= base_px;
+    }
     for (std::size_t i = 1; i < axes_.size(); ++i)
       children_[static_cast<std::size_t>(axes_[i].parent)].push_back(i);
+    const auto lower = [&](std::size_t a, std::size_t b) { return axes_[a].start < axes_[b].start; };
+    for (std::vector<std::size_t>& of_one : children_) std::stable_sort(of_one.begin(), of_one.end(), lower);
   }
 
-  void run() { trace(0, {0}); }
+  /// Twice: radii along branches are known after the first time.
+  void run() {
+    trace(0, {0});
+    set_radius_curves();
+    traced_.overrides = {};
+    trace(0, {0});
+  }
 
  private:
   /// Lays the branch of this path on the axis, then those it bears on its children.
@@ -79,30 +97,68 @@ class Tracer {
   }
 
   void lay(std::size_t axis, const BranchPath& path) {
-    constexpr double kWidthOfBase = 1.2;  // over the median of the lower third, which is what is known
-    RandomStream draws(child_key(key_, axis));
-    const double draw = draws.uniform_signed();
-    const double outward = path.size() == 1   ? 0
-                           : path.size() == 2 ? outward_of(axes_[axis], path.back(), draw)
-                                              : kMostOutward * draw;
-    const LineInPicture line{axes_[axis].points, kWidthOfBase * axes_[axis].width_px, outward};
-    write_offsets(layer_.lay(line, path, traced_), traced_.overrides);
+    const LaidBranch laid =
+        layer_.lay({axes_[axis].points, widths_of(axes_[axis]), deeper_px_[axis]}, path, traced_);
+    write_offsets(laid.offsets, traced_.overrides);
+    note_radii(laid);
   }
 
-  /// Of a branch on the trunk: its tip is in a crown that is as deep as it is wide, every other one before
-  /// the trunk, and further from it than half of what is free there.
-  double outward_of(const MedialAxis& axis, std::uint32_t index, double draw) const {
-    const PixelPoint base = axis.points.front(), tip = axis.points.back(), foot = axes_[0].points.front();
-    const double aside_px = tip.x - foot.x;
-    const double free_px = std::sqrt(std::max(0.0, half_width_px_ * half_width_px_ - aside_px * aside_px));
-    const double depth_px = (index % 2 == 0 ? 1 : -1) * (0.75 + 0.25 * draw) * free_px;
-    return std::clamp(depth_px / std::hypot(tip.x - base.x, tip.y - base.y), -kSteepest, kSteepest);
+  /// Branches of one level share how their radius changes along them: by least squares, place by place.
+  void set_radius_curves() {
+    for (const Level& level : levels_) {
+      if (!level.radius_curve) continue;
+      std::vector<double> factors;
+      factors.reserve(level.products.size());
+      for (std::size_t i = 0; i < level.products.size(); ++i)
+        factors.push_back(level.products[i] / std::max(level.squares[i], 1e-12));
+      const Curve curve = fit_curve(factors);
+      for (std::size_t i = 0; i < kCurveRows; ++i) {
+        const std::size_t row = level.radius_curve->first_row + i;
+        traced_.values[row] = std::clamp(curve.numbers[i], table_.rows[row].lower, table_.rows[row].upper);
+      }
+    }
   }
 
-  RandomKey key_;
+  void note_radii(const LaidBranch& laid) {
+    Level& level = levels_[laid.offsets.path.size() - 1];
+    if (laid.grown_radius_m.empty()) return;
+    if (level.products.empty()) {
+      level.radius_curve = layer_.radius_curve(laid.offsets.path, traced_);
+      level.products.assign(laid.grown_radius_m.size(), 0);
+      level.squares = level.products;
+    }
+    for (std::size_t i = 0; i < laid.grown_radius_m.size(); ++i) {
+      level.products[i] += laid.grown_radius_m[i] * laid.wanted_radius_m[i];
+      level.squares[i] += laid.grown_radius_m[i] * laid.grown_radius_m[i];
+    }
+  }
+
+  /// Inside of its parent a branch is as wide as where it comes out, and so where it runs along another.
+  std::vector<float> widths_of(const MedialAxis& axis) const {
+    std::vector<float> widths = axis.widths_px;
+    if (axis.parent < 0) return widths;
+    const bool runs_along = axis.runs_along >= 0;
+    const MedialAxis& beside = axes_[static_cast<std::size_t>(runs_along ? axis.runs_along : axis.parent)];
+    const std::size_t from = runs_along ? axis.shared_points : 0;
+    const PixelPoint fork = axis.points[from];
+    const auto off_px = [&](PixelPoint at) { return std::hypot(at.x - fork.x, at.y - fork.y); };
+    const auto nearest = std::min_element(beside.points.begin(), beside.points.end(),
+                                          [&](PixelPoint a, PixelPoint b) { return off_px(a) < off_px(b); });
+    const float inside_px =
+        0.5f * beside.widths_px[static_cast<std::size_t>(nearest - beside.points.begin())];
+    std::size_t out = from;
+    while (out + 2 < widths.size() && off_px(axis.points[out]) < inside_px) ++out;
+    const auto first = widths.begin() + static_cast<std::ptrdiff_t>(out);
+    const auto last = widths.begin() + static_cast<std::ptrdiff_t>(std::min(out + 4, widths.size()));
+    std::fill(widths.begin(), first, *std::min_element(first, last));
+    return widths;
+  }
+
+  const ParameterTable& table_;
   std::vector<MedialAxis> axes_;
-  double half_width_px_ = 0;  ///< of the crown
+  std::vector<std::vector<double>> deeper_px_;  ///< of each point of each axis, than the foot
   std::vector<std::vector<std::size_t>> children_;
+  std::array<Level, kDeepest> levels_;
   Solution& traced_;
   BranchLayer layer_;
 };
@@ -124,7 +180,7 @@ Solution trace_branches(const FitTask& task, const TracingSettings& settings, co
   if (!task.model->has_branch_paths() || has_locks(start.overrides)) return start;
   const Mask& mask = task.views[0].target.mask();
   const auto shortest_px = static_cast<float>(settings.shortest * mask.height_px());
-  const std::vector<MedialAxis> axes = medial_axes(without_roots(mask), shortest_px);
+  const std::vector<MedialAxis> axes = medial_axes(without_roots(mask), shortest_px, kDeepest);
   if (axes.empty()) return start;
   Solution traced{start.values, start.plant_seed, {}, 1};
   if (!make_plain(task.model->table(), axes[0], task.views[0].metres_per_px, traced.values)) return start;

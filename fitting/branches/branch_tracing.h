@@ -10,8 +10,8 @@
 namespace espalier {
 
 struct TracingSettings {
-  double shortest = 0.03;  ///< axis that becomes a branch, as a share of the picture's tree
-  RandomKey key;           ///< of the search's draws
+  double shortest = 0.012;  ///< axis that becomes a branch, as a share of the picture's tree
+  RandomKey key;            ///< of the search's draws
 };
 
 /// The traced tree, with `start`'s leaves and bark, and its score. `start` itself where the model's table

@@ -37,9 +37,8 @@ std::map<std::string, double> palm_parameters(const ParameterTable& table, const
 Overrides lay_palm_trunk(const FitTask& task, const TrunkLine& line, const ParameterValues& values) {
   const Seed seed = task.plant_seeds.front();
   Solution tree{values, seed, {}, 1};
-  BranchOffsets trunk = BranchLayer(task).lay({line.points, line.foot_width_px, 0}, {0}, tree);
-  trunk.at.back() = 0;  // its radius is a parameter
-  write_offsets(trunk, tree.overrides);
+  // Its radius is a parameter.
+  write_offsets(BranchLayer(task).lay({line.points, {}, {}}, {0}, tree).offsets, tree.overrides);
   return tree.overrides;
 }
 

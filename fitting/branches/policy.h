@@ -20,13 +20,24 @@ struct BranchStepPolicy {
 };
 inline constexpr BranchStepPolicy kBranchStep;
 
+/// Of how far from the viewer traced branches lie (branch_depths.h), where a depth is over the length in the
+/// picture.
+struct DepthPolicy {
+  double outward = 0.7;     ///< most of a branch on a branch
+  double steepest = 1.2;    ///< most of a branch on the trunk, in a crown that is deep enough with it
+  double most_steep = 3;    ///< the same in any crown
+  double over_width = 0.9;  ///< depth over width of a crown that is deep enough
+};
+inline constexpr DepthPolicy kDepth;
+
 /// Of laying a branch on a line (branch_laying.h).
 struct LayingPolicy {
   std::size_t points = 48;      ///< of the line, that the axis is fitted to
   int turns = 8;                ///< sides of the parent that the branch may stand on
   int moves = 3;                ///< steps along the parent to where the line begins
-  double tolerance = 0.08;      ///< the same over the width of the branch
   double tolerance_px = 0.5;    ///< root mean square, of an axis that needs no more points
+  double to_bends = 2;          ///< weight of bends, over that of length, in where these points are
+  double least_bend = 0.5;      ///< radians: lines that bend less are as those that do not
   double least_px_a_point = 3;  ///< of the line's length: shorter lines have axes of fewer points
 };
 inline constexpr LayingPolicy kLaying;

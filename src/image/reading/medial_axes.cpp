@@ -3,6 +3,7 @@
 #include <limits>
 #include <queue>
 
+#include <espalier/image/masks/distance_field.h>
 #include <espalier/image/masks/morphology.h>
 #include <espalier/image/reading/medial_axes.h>
 
@@ -94,14 +95,18 @@ struct Piece {
   int pixels = 0;
   int below = -1;  ///< the piece it grows out of
   std::vector<int> above;
+  float width_px = 0;
   float reach_px = 0;  ///< of the longest line from here to a tip
+  int levels = 1;      ///< of branching that the axes from here on need at least
   int on = -1;         ///< the piece above that goes on along the axis
 };
 
-/// All pieces, each after the one below it.
+/// All pieces, each after the one below it. Their middles are where the mask is widest, by `free_px`, the
+/// distances of pixels to its edge: a branch that is about to leave does not draw the middle aside.
 class Pieces {
  public:
-  explicit Pieces(const DistanceFromFoot& field) : field_(field), piece_of_(field.size(), -1) {
+  Pieces(const DistanceFromFoot& field, const std::vector<float>& free_px)
+      : field_(field), free_px_(free_px), piece_of_(field.size(), -1) {
     collect();
     link();
   }
@@ -120,13 +125,17 @@ class Pieces {
   void flood(int first) {
     const int number = static_cast<int>(all.size());
     Piece piece;
+    float weights = 0;
     std::vector<int> open{first};
     piece_of_[static_cast<std::size_t>(first)] = number;
     while (!open.empty()) {
       const int pixel = open.back();
       open.pop_back();
       const PixelPoint at = field_.point(pixel);
-      piece.middle.x += at.x, piece.middle.y += at.y;
+      const float free_px = std::max(0.5f, free_px_[static_cast<std::size_t>(pixel)]);
+      const float weight = free_px * free_px * free_px * free_px;
+      piece.middle.x += weight * at.x, piece.middle.y += weight * at.y;
+      weights += weight;
       ++piece.pixels;
       members_.push_back(pixel);
       for_neighbours(pixel, [&](int next) {
@@ -135,7 +144,7 @@ class Pieces {
         open.push_back(next);
       });
     }
-    piece.middle.x /= static_cast<float>(piece.pixels), piece.middle.y /= static_cast<float>(piece.pixels);
+    piece.middle.x /= weights, piece.middle.y /= weights;
     all.push_back(piece);
   }
 
@@ -162,16 +171,52 @@ class Pieces {
   }
 
   const DistanceFromFoot& field_;
+  const std::vector<float>& free_px_;
   std::vector<int> piece_of_, members_;
 };
 
-/// Follows pieces into axes: at each fork the axis goes on where the line is longest and bends least.
+/// The mask on a copy of its lowest row, downwards, so that discs do not end where the picture does.
+Mask with_foot_drawn_out(const Mask& mask) {
+  int foot = mask.height_px() - 1;
+  const auto is_empty = [&](int y) {
+    for (int x = 0; x < mask.width_px(); ++x)
+      if (mask.get(x, y)) return false;
+    return true;
+  };
+  while (foot > 0 && is_empty(foot)) --foot;
+  Mask longer(mask.width_px(), mask.height_px() + mask.width_px() / 4);
+  for (int y = 0; y < longer.height_px(); ++y)
+    for (int x = 0; x < mask.width_px(); ++x)
+      if (mask.get(x, std::min(y, foot))) longer.set(x, y);
+  return longer;
+}
+
+/// A piece is as wide as it has pixels, and where others cross it or leave it, no wider than the largest disc
+/// of the mask about its middle.
+void measure_widths(const Mask& mask, const std::vector<float>& free_px, std::vector<Piece>& pieces) {
+  constexpr float kOfPixel = 0.3f;  // a disc reaches to the middle of an unset pixel: over its edge
+  const auto at = [&](int x, int y) {
+    const int column = std::clamp(x, 0, mask.width_px() - 1), row = std::clamp(y, 0, mask.height_px() - 1);
+    return free_px[static_cast<std::size_t>(row * mask.width_px() + column)];
+  };
+  for (Piece& piece : pieces) {
+    float widest_px = 0;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+        widest_px = std::max(
+            widest_px, at(static_cast<int>(piece.middle.x) + dx, static_cast<int>(piece.middle.y) + dy));
+    const float across_px = static_cast<float>(piece.pixels) / kBandPx;
+    piece.width_px = std::min(across_px, 2 * std::max(0.5f, widest_px - kOfPixel));
+  }
+}
+
+/// Follows pieces into axes: at each fork the axis goes on where the line is longest and bends least, of the
+/// ways that leave all others the levels of branching that they need.
 class AxisTracer {
  public:
-  AxisTracer(std::vector<Piece> pieces, float shortest_px)
-      : pieces_(std::move(pieces)), shortest_px_(shortest_px) {
+  AxisTracer(std::vector<Piece> pieces, float shortest_px, int levels)
+      : pieces_(std::move(pieces)), shortest_px_(shortest_px), levels_(levels) {
     for (std::size_t i = pieces_.size(); i-- > 0;) measure(pieces_[i]);
-    for (std::size_t i = pieces_.size(); i-- > 0;) choose_way_on(pieces_[i]);
   }
 
   std::vector<MedialAxis> trace() {
@@ -187,28 +232,66 @@ class AxisTracer {
   void measure(Piece& at) {
     for (const int next : at.above)
       at.reach_px = std::max(at.reach_px, piece(next).reach_px + distance_px(at.middle, piece(next).middle));
+    at.levels = levels_of(at);
+  }
+
+  /// The order of Strahler [1957, Quantitative analysis of watershed geomorphology]: where two ways need as
+  /// many levels, one of them has to become a branch on the other.
+  int levels_of(const Piece& at) {
+    int most = 0, next_most = 0;
+    for (const int next : at.above) {
+      if (!is_long(at, next)) continue;
+      next_most = std::max(next_most, std::min(most, piece(next).levels));
+      most = std::max(most, piece(next).levels);
+    }
+    return std::max(most, next_most + 1);
+  }
+
+  /// Whether the way from a piece to one above it is long enough for an axis of its own.
+  bool is_long(const Piece& from, int to) {
+    const float reach_px = piece(to).reach_px + distance_px(from.middle, piece(to).middle);
+    return reach_px - 0.5f * static_cast<float>(from.pixels) / kBandPx >= shortest_px_;
+  }
+
+  /// Whether all other ways from the piece can be branches of the axis that goes on there.
+  bool leaves_levels(const Piece& at, int on, int levels) {
+    return std::all_of(at.above.begin(), at.above.end(), [&](int other) {
+      return other == on || piece(other).levels < levels || !is_long(at, other);
+    });
+  }
+
+  /// Over how many pieces a line shows where it leads: over twice its width, as the first ones of a branch
+  /// are drawn aside by what it stands on.
+  static int pieces_of_direction(const Piece& at) {
+    return std::max(4, static_cast<int>(2 * at.width_px / kBandPx));
   }
 
   /// The piece some way along the longest line: where a branch leads, not how its first pixels lie.
-  PixelPoint ahead(const Piece& from) {
+  PixelPoint ahead(const Piece& from, int pieces) {
     const Piece* at = &from;
-    for (int i = 0; i < 4 && !at->above.empty(); ++i)
+    for (int i = 0; i < pieces && !at->above.empty(); ++i)
       at = &piece(*std::max_element(at->above.begin(), at->above.end(),
                                     [&](int a, int b) { return piece(a).reach_px < piece(b).reach_px; }));
     return at->middle;
   }
 
-  PixelPoint behind(const Piece& from) {
+  PixelPoint behind(const Piece& from, int pieces) {
     const Piece* at = &from;
-    for (int i = 0; i < 4 && at->below >= 0; ++i) at = &piece(at->below);
+    for (int i = 0; i < pieces && at->below >= 0; ++i) at = &piece(at->below);
     return at->middle;
   }
 
-  void choose_way_on(Piece& at) {
+  /// Where not all ways find levels enough, one of those that need most.
+  void choose_way_on(Piece& at, int levels) {
     float best = -1;
-    const PixelPoint from = behind(at);
+    const int pieces = pieces_of_direction(at);
+    const PixelPoint from = behind(at, pieces);
+    const bool fits = at.levels <= levels;
+    int most = 0;
+    for (const int next : at.above) most = std::max(most, piece(next).levels);
     for (const int next : at.above) {
-      const PixelPoint to = ahead(piece(next));
+      if (fits ? !leaves_levels(at, next, levels) : piece(next).levels < most) continue;
+      const PixelPoint to = ahead(piece(next), pieces);
       const float cosine =
           ((at.middle.x - from.x) * (to.x - at.middle.x) + (at.middle.y - from.y) * (to.y - at.middle.y)) /
           std::max(1e-3f, distance_px(from, at.middle) * distance_px(at.middle, to));
@@ -217,20 +300,70 @@ class AxisTracer {
     }
   }
 
-  /// The axis from `first` to its tip; on a parent it begins at the piece it leaves.
+  /// The axis from `first` to its tip; on a parent it begins at the piece it leaves. On one that may bear
+  /// none it begins where that does, and runs along it to there.
   void follow(int first, int parent, float start) {
     MedialAxis axis{.parent = parent, .start = start};
+    int levels = parent < 0 ? levels_ : levels_of_axis_[static_cast<std::size_t>(parent)] - 1;
     std::vector<int> along;
-    if (parent >= 0) axis.points.push_back(piece(piece(first).below).middle);
+    if (levels == 0) {
+      levels = 1;
+      run_along(parent, piece(first).below, axis);
+    }
+    if (axis.runs_along >= 0)
+      axis.points.push_back(piece(piece(first).below).middle);
+    else if (parent >= 0)
+      axis.points.push_back(origin_of(first, axis));
     for (int at = first; at >= 0; at = piece(at).on) {
+      choose_way_on(piece(at), levels);
       along.push_back(at);
       axis.points.push_back(piece(at).middle);
     }
     if (axis.points.size() < 2) return;
     axis.width_px = median_width_px(along);
     axis.length_px = length_px(axis.points);
+    axis.widths_px.assign(axis.points.size() - along.size(), piece(first).width_px);
+    for (const int at : along) axis.widths_px.push_back(piece(at).width_px);
     axes_.push_back(std::move(axis));
     along_.push_back(std::move(along));
+    levels_of_axis_.push_back(levels);
+  }
+
+  /// Where on its parent an axis begins that comes out of it at this piece: where its line meets the parent's
+  /// when it is drawn back, no further down than the parent is wide. Moves its start there.
+  PixelPoint origin_of(int first, MedialAxis& axis) {
+    const MedialAxis& parent = axes_[static_cast<std::size_t>(axis.parent)];
+    const PixelPoint from = piece(first).middle, to = ahead(piece(first), pieces_of_direction(piece(first)));
+    const float long_px = std::max(1e-3f, distance_px(from, to));
+    const float dx = (to.x - from.x) / long_px, dy = (to.y - from.y) / long_px;
+    const auto off_px = [&](PixelPoint at) { return std::fabs((at.x - from.x) * dy - (at.y - from.y) * dx); };
+    const PixelPoint fork = piece(piece(first).below).middle;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < parent.points.size(); ++i)
+      if (distance_px(parent.points[i], fork) < distance_px(parent.points[at], fork)) at = i;
+    const float width_px = parent.widths_px[at];
+    float down_px = 0;
+    while (at > 0 && off_px(parent.points[at - 1]) < off_px(parent.points[at])) {
+      const float step_px = distance_px(parent.points[at - 1], parent.points[at]);
+      if (down_px + step_px > width_px) break;
+      down_px += step_px;
+      --at;
+    }
+    axis.start = std::max(0.f, axis.start - down_px / parent.length_px);
+    return parent.points[at];
+  }
+
+  /// Lets the axis begin with the points of another, up to the piece `to`.
+  void run_along(int other_axis, int to, MedialAxis& axis) {
+    const MedialAxis& other = axes_[static_cast<std::size_t>(other_axis)];
+    const std::vector<int>& along = along_[static_cast<std::size_t>(other_axis)];
+    const auto reached = static_cast<std::size_t>(std::find(along.begin(), along.end(), to) - along.begin());
+    axis.parent = other.parent;
+    axis.start = other.start;
+    axis.runs_along = other_axis;
+    axis.shared_points = other.points.size() - along.size() + reached;
+    axis.points.assign(other.points.begin(),
+                       other.points.begin() + static_cast<std::ptrdiff_t>(axis.shared_points));
   }
 
   float median_width_px(const std::vector<int>& along) {
@@ -243,6 +376,7 @@ class AxisTracer {
   }
 
   void trace_children(int parent) {
+    if (levels_ == 1) return;
     const std::vector<int> along = along_[static_cast<std::size_t>(parent)];
     const float whole_px = axes_[static_cast<std::size_t>(parent)].length_px;
     float at_px =
@@ -252,9 +386,7 @@ class AxisTracer {
     for (std::size_t i = 0; i < along.size(); ++i) {
       if (i > 0) at_px += distance_px(piece(along[i - 1]).middle, piece(along[i]).middle);
       for (const int next : piece(along[i]).above) {
-        const float reach_px = piece(next).reach_px + distance_px(piece(along[i]).middle, piece(next).middle);
-        const float inside_px = 0.5f * static_cast<float>(piece(along[i]).pixels) / kBandPx;
-        if (next == piece(along[i]).on || reach_px - inside_px < shortest_px_) continue;
+        if (next == piece(along[i]).on || !is_long(piece(along[i]), next)) continue;
         follow(next, parent, at_px / whole_px);
       }
     }
@@ -262,15 +394,20 @@ class AxisTracer {
 
   std::vector<Piece> pieces_;
   float shortest_px_;
+  int levels_;
   std::vector<MedialAxis> axes_;
   std::vector<std::vector<int>> along_;  ///< the pieces of each axis
+  std::vector<int> levels_of_axis_;      ///< that are left from it on, with its own
 };
 
 }  // namespace
 
-std::vector<MedialAxis> medial_axes(const Mask& mask, float shortest_px) {
+std::vector<MedialAxis> medial_axes(const Mask& mask, float shortest_px, int levels) {
   const DistanceFromFoot field(close_disc(mask, 1));
-  return AxisTracer(Pieces(field).all, shortest_px).trace();
+  const std::vector<float> free_px = distances_to_unset_px(with_foot_drawn_out(mask));
+  std::vector<Piece> pieces = Pieces(field, free_px).all;
+  measure_widths(mask, free_px, pieces);
+  return AxisTracer(std::move(pieces), shortest_px, levels).trace();
 }
 
 std::vector<PixelPoint> evenly_spaced(const std::vector<PixelPoint>& line, std::size_t count) {
