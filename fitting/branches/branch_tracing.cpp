@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include <espalier/core/curves/curve.h>
 #include <espalier/fitting/branches/branch_depths.h>
@@ -46,6 +47,7 @@ class Tracer {
       : table_(task.model->table()),
         axes_(std::move(axes)),
         deeper_px_(branch_depths_px(axes_, settings.key)),
+        metres_per_px_(task.views[0].metres_per_px),
         traced_(traced),
         layer_(task) {
     children_.resize(axes_.size());
@@ -63,6 +65,7 @@ class Tracer {
   void run() {
     trace(0, {0});
     set_radius_curves();
+    knows_levels_ = true;
     traced_.overrides = {};
     trace(0, {0});
   }
@@ -101,6 +104,7 @@ class Tracer {
         layer_.lay({axes_[axis].points, widths_of(axes_[axis]), deeper_px_[axis]}, path, traced_);
     write_offsets(laid.offsets, traced_.overrides);
     note_radii(laid);
+    if (knows_levels_) set_own_curve(laid);
   }
 
   /// Branches of one level share how their radius changes along them: by least squares, place by place.
@@ -117,6 +121,33 @@ class Tracer {
         traced_.values[row] = std::clamp(curve.numbers[i], table_.rows[row].lower, table_.rows[row].upper);
       }
     }
+  }
+
+  /// A branch whose radii its level does not have within half a pixel has a curve of its own.
+  void set_own_curve(const LaidBranch& laid) {
+    const CurveInfo* info = levels_[laid.offsets.path.size() - 1].radius_curve;
+    const std::size_t count = laid.grown_radius_m.size();
+    if (!info || count == 0) return;
+    const Curve of_level = make_curve(std::span(traced_.values).subspan(info->first_row, kCurveRows));
+    std::vector<double> factors;
+    factors.reserve(count);
+    double squares = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double off_m = laid.wanted_radius_m[i] - laid.grown_radius_m[i];
+      squares += off_m * off_m;
+      factors.push_back(curve_value(of_level, static_cast<double>(i) / static_cast<double>(count - 1)) *
+                        laid.wanted_radius_m[i] / std::max(laid.grown_radius_m[i], 1e-6));
+    }
+    const double off_px = 2 * std::sqrt(squares / static_cast<double>(count)) / metres_per_px_;
+    if (off_px < kLaying.tolerance_px) return;
+    const Curve curve = fit_curve(factors);
+    ParameterOverride own{.key = info->full_name(), .is_list = true, .is_private = true};
+    for (std::size_t i = 0; i < kCurveRows; ++i) {
+      const std::size_t row = info->first_row + i;
+      own.numbers.push_back(std::clamp(curve.numbers[i], table_.rows[row].lower, table_.rows[row].upper));
+      own.rows.push_back({static_cast<std::uint32_t>(row), own.numbers.back()});
+    }
+    set_parameter(traced_.overrides.at(laid.offsets.path).set, own);
   }
 
   void note_radii(const LaidBranch& laid) {
@@ -158,7 +189,9 @@ class Tracer {
   std::vector<MedialAxis> axes_;
   std::vector<std::vector<double>> deeper_px_;  ///< of each point of each axis, than the foot
   std::vector<std::vector<std::size_t>> children_;
+  double metres_per_px_;
   std::array<Level, kDeepest> levels_;
+  bool knows_levels_ = false;  ///< how the radius of their branches changes along them
   Solution& traced_;
   BranchLayer layer_;
 };
