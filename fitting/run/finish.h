@@ -10,9 +10,10 @@
 namespace espalier {
 
 /// The task, which looks at its pictures at their own size and at twice that, but no larger than
-/// kFullSizePx: the views of a larger search are left as they are. Throws InputError where the pictures can
-/// no longer be read.
-FitTask with_finer_views(const FitRecord& record, const FitTask& task, SizedTasks& sized);
+/// kFullSizePx: the views of a larger search are left as they are. Of a traced tree, whose branches lie
+/// within a pixel or two of the picture's in masks of kFullSizePx, at these alone. Throws InputError where
+/// the pictures can no longer be read.
+FitTask with_finer_views(const FitRecord& record, const FitTask& task, bool is_traced, SizedTasks& sized);
 
 /// Whether the rounds that follow belong to the finish: from the record's round on, else after `share_before`
 /// of the rounds or of the time that the refinement is given. `seconds` of the run so far.

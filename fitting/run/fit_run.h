@@ -79,6 +79,7 @@ class FitRun : public Observer {
 
   // fit_run_refinement.cpp
   bool will_refine() const;
+  bool is_traced() const;  ///< branches come from the picture
   void refine();
   std::vector<Solution> refinement_starts();
   void go_on_from(const BranchRounds& reached);

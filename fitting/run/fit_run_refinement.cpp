@@ -12,6 +12,8 @@ bool FitRun::will_refine() const {
          task_.model->has_branch_paths();
 }
 
+bool FitRun::is_traced() const { return record_.stages.tracing && state_.kind == KindChoice::leafless; }
+
 /// Branch by branch, from the best of the search; what ended the search does not end this.
 void FitRun::refine() {
   if (state_.stopped_by == FitStop::interrupted || state_.stopped_by == FitStop::target_fitness) return;
@@ -31,14 +33,14 @@ void FitRun::refine() {
 }
 
 void FitRun::refine_by_rounds() {
-  if (finishing()) finer_task_ = with_finer_views(record_, task_, sized_tasks_);
+  if (finishing()) finer_task_ = with_finer_views(record_, task_, is_traced(), sized_tasks_);
   while (!stop_requested()) {
     if (state_.branches.rounds == record_.budget.branch_rounds) {
       state_.stopped_by = FitStop::rounds;
       return;
     }
-    if (!finishing() && finish_is_due(record_, plan_.shares.before_finish, state_.branches, seconds()))
-      begin_finish();
+    const double before_finish = is_traced() ? 0 : plan_.shares.before_finish;
+    if (!finishing() && finish_is_due(record_, before_finish, state_.branches, seconds())) begin_finish();
     stage_ = finishing() ? FitStage::finish : FitStage::branches;
     refine_round(finishing() ? *finer_task_ : task_, record_.seed, threads_, state_.branches);
     note_round();
@@ -47,7 +49,7 @@ void FitRun::refine_by_rounds() {
 
 /// From here on copies are scored at both sizes.
 void FitRun::begin_finish() {
-  finer_task_ = with_finer_views(record_, task_, sized_tasks_);
+  finer_task_ = with_finer_views(record_, task_, is_traced(), sized_tasks_);
   state_.branches.finish_from = state_.branches.rounds;
   rescore(*finer_task_, state_.branches);
   stage_ = FitStage::finish;
@@ -59,7 +61,7 @@ std::vector<Solution> FitRun::refinement_starts() {
   const Solution searched{scorer_.best().values, task_.plant_seeds.front(), given_overrides_,
                           scorer_.best().score};
   std::vector<Solution> starts{searched};
-  if (record_.stages.tracing && state_.kind == KindChoice::leafless)
+  if (is_traced())
     starts.push_back(trace_branches(sized_tasks_.at(kFullSizePx), {.key = root_key(record_.seed)}, searched));
   return starts;
 }
