@@ -213,7 +213,8 @@ Solution trace_branches(const FitTask& task, const TracingSettings& settings, co
   if (!task.model->has_branch_paths() || has_locks(start.overrides)) return start;
   const Mask& mask = task.views[0].target.mask();
   const auto shortest_px = static_cast<float>(settings.shortest * mask.height_px());
-  const std::vector<MedialAxis> axes = medial_axes(without_roots(mask), shortest_px, kDeepest);
+  const std::vector<MedialAxis> axes =
+      medial_axes(without_roots(mask), shortest_px, static_cast<int>(kDeepest));
   if (axes.empty()) return start;
   Solution traced{start.values, start.plant_seed, {}, 1};
   if (!make_plain(task.model->table(), axes[0], task.views[0].metres_per_px, traced.values)) return start;

@@ -96,6 +96,19 @@ TEST_P(BranchTracing, LaysItsWoodOnThePicturesWood) {
   EXPECT_GT(on_wood, share_on_wood(task, grown(task, start)));
 }
 
+TEST_P(BranchTracing, IsAboutAsDeepAsWide) {
+  const FitTask task = task_of(GetParam());
+  const Plant plant = grown(task, traced(task));
+  auto [left_m, right_m] = std::pair(1e9f, -1e9f);
+  auto [front_m, back_m] = std::pair(1e9f, -1e9f);
+  for (const Vec3 point_m : plant.knots.point_m) {
+    left_m = std::min(left_m, point_m.x), right_m = std::max(right_m, point_m.x);
+    front_m = std::min(front_m, point_m.y), back_m = std::max(back_m, point_m.y);
+  }
+  EXPECT_GT((back_m - front_m) / (right_m - left_m), 0.65);
+  EXPECT_LT((back_m - front_m) / (right_m - left_m), 1.3);
+}
+
 TEST_P(BranchTracing, Repeats) {
   const FitTask task = task_of(GetParam(), 128);
   const Plant first = grown(task, traced(task)), second = grown(task, traced(task));

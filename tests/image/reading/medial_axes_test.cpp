@@ -54,6 +54,27 @@ TEST(MedialAxes, ABranchLeavesTheTrunkWhereItIsDrawn) {
   EXPECT_LT(axes[1].width_px, axes[0].width_px);
 }
 
+TEST(MedialAxes, AreAsWideAsTheMaskAlongThem) {
+  const auto axes = medial_axes(one_branch(), 8);
+  ASSERT_EQ(axes.size(), 2u);
+  for (std::size_t i = 10; i + 10 < axes[0].widths_px.size(); ++i) EXPECT_NEAR(axes[0].widths_px[i], 8, 1.5);
+  EXPECT_NEAR(axes[0].widths_px.front(), 8, 2) << "discs do not end with the foot";
+  EXPECT_NEAR(axes[1].widths_px[axes[1].widths_px.size() / 2], 4, 1.5);
+  EXPECT_EQ(axes[1].widths_px.size(), axes[1].points.size());
+}
+
+RC_GTEST_PROP(MedialAxes, BearEachOtherInNoMoreLevelsThanAsked, ()) {
+  const Mask mask = test::draw_mask(40);
+  const int levels = *rc::gen::inRange(2, 5);
+  const auto axes = medial_axes(mask, 2, levels);
+  std::vector<int> level;
+  for (const MedialAxis& axis : axes) {
+    level.push_back(axis.parent < 0 ? 1 : level[static_cast<std::size_t>(axis.parent)] + 1);
+    RC_ASSERT(level.back() <= levels);
+  }
+  RC_ASSERT(axes.empty() == medial_axes(mask, 2).empty());
+}
+
 TEST(MedialAxes, AxesShorterThanAskedAreLeftOut) { EXPECT_EQ(medial_axes(one_branch(), 70).size(), 1u); }
 
 TEST(MedialAxes, WhatNoPathJoinsToTheFootHasNoAxis) {
