@@ -128,8 +128,28 @@ Solution traced_from_defaults(const FitTask& task) {
   return trace_branches(task, {.key = root_key(1)}, start);
 }
 
+/// The toy's original, which has no curves either.
+class OriginalWithoutCurves : public Model {
+ public:
+  OriginalWithoutCurves() : table_(ToyModel::original().table()) { table_.curves.clear(); }
+  const ParameterTable& table() const override { return table_; }
+  bool has_branch_paths() const override { return true; }
+  GrowthEstimate estimate(std::span<const double> values) const override {
+    return ToyModel::original().estimate(values);
+  }
+  GrowthResult generate(std::span<const double> values, Seed seed, const GrowthSettings& settings,
+                        Plant& plant) const override {
+    return ToyModel::original().generate(values, seed, settings, plant);
+  }
+
+ private:
+  ParameterTable table_;
+};
+
 TEST(BranchTracing, IsTheSameUnderOtherNames) {
   FitTask task = task_of("tr_snowytree", 64);
+  const OriginalWithoutCurves without_curves;
+  task.model = &without_curves;
   const Solution original = traced_from_defaults(task);
   const ToyModel toy;
   task.model = &toy;

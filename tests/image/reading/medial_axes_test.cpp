@@ -55,7 +55,9 @@ TEST(MedialAxes, ABranchLeavesTheTrunkWhereItIsDrawn) {
 }
 
 TEST(MedialAxes, AreAsWideAsTheMaskAlongThem) {
-  const auto axes = medial_axes(one_branch(), 8);
+  Mask mask = one_branch();
+  draw_line(mask, {64, 140}, {64, 100}, 4);  // to the picture's edge
+  const auto axes = medial_axes(mask, 8);
   ASSERT_EQ(axes.size(), 2u);
   for (std::size_t i = 10; i + 10 < axes[0].widths_px.size(); ++i) EXPECT_NEAR(axes[0].widths_px[i], 8, 1.5);
   EXPECT_NEAR(axes[0].widths_px.front(), 8, 2) << "discs do not end with the foot";
