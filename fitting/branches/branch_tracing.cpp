@@ -19,9 +19,8 @@ namespace {
 constexpr std::size_t kDeepest = 4;  ///< levels of branching
 constexpr std::size_t kBuds = 4;     ///< on each branch: where refinement may add what was not traced
 
-/// A tree whose branches are all alike and none at random, so that overrides say what each is. False where
-/// the model does not say by roles how long and how thick its trunk is.
-bool make_plain(const ParameterTable& table, const MedialAxis& trunk, double metres_per_px,
+/// A tree whose branches are all alike and none at random, so that overrides say what each is.
+void make_plain(const ParameterTable& table, const MedialAxis& trunk, double metres_per_px,
                 ParameterValues& values) {
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     if (const ParameterInfo& row = table.rows[i]; row.plain)
@@ -29,10 +28,9 @@ bool make_plain(const ParameterTable& table, const MedialAxis& trunk, double met
   const double length_m = trunk.length_px * metres_per_px;
   const double ratio = std::max(0.004, 0.6 * trunk.width_px / trunk.length_px);
   set_role(table, {Role::levels}, kDeepest, values);
-  const bool is_long = set_role(table, {Role::tree_scale}, in_own_units(table, length_m, values), values);
-  return is_long &&
-         (set_role(table, {Role::trunk_ratio}, ratio, values) ||
-          set_role(table, {Role::trunk_radius}, in_own_units(table, ratio * length_m, values), values));
+  set_role(table, {Role::tree_scale}, in_own_units(table, length_m, values), values);
+  if (!set_role(table, {Role::trunk_ratio}, ratio, values))
+    set_role(table, {Role::trunk_radius}, in_own_units(table, ratio * length_m, values), values);
 }
 
 /// The radii of all branches of a level, place by place.
@@ -209,15 +207,21 @@ bool has_locks(const Overrides& overrides) {
 
 }  // namespace
 
+bool can_trace(const Model& model, const Overrides& overrides) {
+  const ParameterTable& table = model.table();
+  return model.has_branch_paths() && !has_locks(overrides) && table.find(Role::tree_scale) &&
+         (table.find(Role::trunk_ratio) || table.find(Role::trunk_radius));
+}
+
 Solution trace_branches(const FitTask& task, const TracingSettings& settings, const Solution& start) {
-  if (!task.model->has_branch_paths() || has_locks(start.overrides)) return start;
+  if (!can_trace(*task.model, start.overrides)) return start;
   const Mask& mask = task.views[0].target.mask();
   const auto shortest_px = static_cast<float>(settings.shortest * mask.height_px());
   const std::vector<MedialAxis> axes =
       medial_axes(without_roots(mask), shortest_px, static_cast<int>(kDeepest));
   if (axes.empty()) return start;
   Solution traced{start.values, start.plant_seed, {}, 1};
-  if (!make_plain(task.model->table(), axes[0], task.views[0].metres_per_px, traced.values)) return start;
+  make_plain(task.model->table(), axes[0], task.views[0].metres_per_px, traced.values);
   Tracer(task, settings, axes, traced).run();
   traced.score = priced_score_of(task, traced);
   return traced;

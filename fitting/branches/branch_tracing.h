@@ -14,10 +14,12 @@ struct TracingSettings {
   RandomKey key;            ///< of the search's draws
 };
 
-/// The traced tree, with `start`'s leaves and bark, and its score. `start` itself where the model's table
-/// does not say by roles how long and how thick a trunk is (tree_scale, and trunk_ratio or trunk_radius), or
-/// the mask has no axes, and where branches of it are locked, as a traced tree has no branch of it. Only the
-/// first view is traced.
+/// Whether the model's table says by roles how long and how thick a trunk is (tree_scale, and trunk_ratio or
+/// trunk_radius), and no branch is locked: a traced tree has no branch of the one before it.
+bool can_trace(const Model& model, const Overrides& overrides);
+
+/// The traced tree, with `start`'s leaves and bark, and its score. `start` itself where it cannot be traced,
+/// or the mask has no axes. Only the first view is traced.
 Solution trace_branches(const FitTask& task, const TracingSettings& settings, const Solution& start);
 
 }  // namespace espalier

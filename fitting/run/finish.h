@@ -1,6 +1,7 @@
 // Stage 6 of a fit: the last rounds of refinement look at the pictures at twice the size of the search as
 // well. Twigs and gaps thinner than a pixel of the small masks meet pixel centres there by chance, and a
-// refinement fits the chance too; where both sizes have to be right, what is right is the tree.
+// refinement fits the chance too; where both sizes have to be right, what is right is the tree. Traced trees
+// are refined in this stage alone.
 #pragma once
 #include <espalier/fitting/branches/branch_rounds.h>
 #include <espalier/fitting/record/fit_record.h>

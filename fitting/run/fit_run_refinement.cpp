@@ -12,7 +12,10 @@ bool FitRun::will_refine() const {
          task_.model->has_branch_paths();
 }
 
-bool FitRun::is_traced() const { return record_.stages.tracing && state_.kind == KindChoice::leafless; }
+bool FitRun::is_traced() const {
+  return record_.stages.tracing && state_.kind == KindChoice::leafless &&
+         can_trace(*task_.model, given_overrides_);
+}
 
 /// Branch by branch, from the best of the search; what ended the search does not end this.
 void FitRun::refine() {
