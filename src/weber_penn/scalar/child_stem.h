@@ -12,7 +12,8 @@ constexpr float kShortestStemM = 1e-5f;
 /// Stems bear nothing where they are thinner: a tenth of a millimetre [CH §3.2.1] of trees whose twigs are as
 /// thick as they are by default, so that a tree of another size is the same tree.
 inline float thinnest_parent_m(const WeberPennParameters& p) {
-  return 0.0001f * (p.least_radius_mm / WeberPennParameters{}.least_radius_mm);
+  constexpr float kThinnestM = 1e-6f;  // a stem of no radius has no direction for what it bears
+  return std::max(kThinnestM, 0.0001f * (p.least_radius_mm / WeberPennParameters{}.least_radius_mm));
 }
 
 /// `parent_radius_m` at the parent's base, `site_radius_m` where the child sits; `level` of the child.
