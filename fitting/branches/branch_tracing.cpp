@@ -194,11 +194,6 @@ class Tracer {
   BranchLayer layer_;
 };
 
-}  // namespace
-
-namespace {
-
-/// A traced tree is a new one, in which nothing stays as it was.
 bool has_locks(const Overrides& overrides) {
   const auto locks = [&](const auto& node) { return resolved_lock(node.set, overrides).value_or(false); };
   return std::any_of(overrides.nodes.begin(), overrides.nodes.end(), locks) ||

@@ -1,8 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <optional>
 
-#include <espalier/core/error.h>
 #include <espalier/plant/branch_path.h>
 
 namespace espalier {
@@ -44,20 +45,6 @@ std::string to_string(const BranchPath& path) {
     text += part_to_string(part);
   }
   return text;
-}
-
-BranchPath parse_branch_path(std::string_view text, const std::string& where) {
-  BranchPath path;
-  for (std::size_t first = 0; first <= text.size();) {
-    const std::size_t end = std::min(text.find('/', first), text.size());
-    const auto part = parse_path_part(text.substr(first, end - first));
-    if (!part)
-      throw_input_error("{}: got '{}', expected a path of branches like '0/12/3' or '0/split4.1/7'", where,
-                        text);
-    path.push_back(*part);
-    first = end + 1;
-  }
-  return path;
 }
 
 BranchPath path_of(const Plant& plant, std::size_t stem) {

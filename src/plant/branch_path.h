@@ -25,9 +25,6 @@ std::string to_string(const BranchPath& path);
 /// One part of a path; none: `text` is none.
 std::optional<std::uint32_t> parse_path_part(std::string_view text);
 
-/// Throws InputError, opening with `where`, unless `text` is a path.
-BranchPath parse_branch_path(std::string_view text, const std::string& where);
-
 /// The path of stem `stem` of the plant.
 BranchPath path_of(const Plant& plant, std::size_t stem);
 

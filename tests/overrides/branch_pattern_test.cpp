@@ -51,6 +51,19 @@ TEST(BranchPattern, AreWrittenAsTheyAreRead) {
   EXPECT_EQ(to_string(pattern("0/@.25...5")), "0/@0.25..0.5");
 }
 
+RC_GTEST_PROP(BranchPattern, TextOfAPathReadsBackToThePath, ()) {
+  BranchPath path;
+  const int parts = *rc::gen::inRange(1, 6);
+  for (int i = 0; i < parts; ++i) {
+    const bool split = *rc::gen::arbitrary<bool>();
+    const std::uint32_t child = *rc::gen::inRange<std::uint32_t>(0, kFirstSplit);
+    const std::uint32_t at = *rc::gen::inRange<std::uint32_t>(0, 1001),
+                        number = *rc::gen::inRange<std::uint32_t>(0, kStemsPerSplit);
+    path.push_back(split ? kFirstSplit + kStemsPerSplit * at + number : child);
+  }
+  RC_ASSERT(as_path(pattern(to_string(path))) == path);
+}
+
 TEST(BranchPattern, IndexRangesHaveBothTheirEnds) {
   Overrides overrides;
   say_factor(overrides, "0/3..7", 2);
@@ -210,6 +223,24 @@ TEST(BranchPattern, TooManyWaysToMeetAreRefused) {
   }
   EXPECT_THROW(ChangeGraph{overrides}, InputError);
 }
+
+class BadPath : public testing::TestWithParam<const char*> {};
+
+TEST_P(BadPath, IsRefusedWithThePlaceAndTheText) {
+  try {
+    parse_branch_pattern(GetParam(), "tree.toml:7");
+    FAIL() << "accepted '" << GetParam() << "'";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_TRUE(message.starts_with("tree.toml:7: got '")) << message;
+    EXPECT_NE(message.find(GetParam()), std::string::npos) << message;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadPath,
+                         testing::Values("", "/", "0/", "/0", "0//1", "-1", "a", "0/1.5", "0/split",
+                                         "0/split4", "0/split4.16", "0/splitx.1", "1000000", "99999999999",
+                                         "0 /1"));
 
 struct BadPattern {
   const char *name, *text, *message;
