@@ -28,6 +28,8 @@
 #include <espalier/fitting/posterior/simulations/reference_table.h>
 #include <espalier/models/models.h>
 
+#include "kept_table.h"
+
 namespace espalier {
 namespace {
 
@@ -248,23 +250,6 @@ LineChart rank_chart(const std::vector<Unknown>& unknowns, const std::vector<std
           {parameters, quantities, outline}};
 }
 
-/// Kept in the directory from one call to the next.
-ReferenceTable table_of(const CalibrationOptions& options, const PlantPrior& prior, Seed seed,
-                        std::size_t size) {
-  const fs::path path = options.directory / fmt::format("table_{}.bin", seed);
-  ReferenceTable table = read_table(path, prior, seed, options.height_m);
-  const std::size_t before = table.size();
-  extend_table(
-      prior, size, 0,
-      [](std::size_t done, std::size_t wanted) {
-        if (done % 2048 == 0) fmt::print(stderr, "{} of {} plants\n", done, wanted);
-        return true;
-      },
-      table);
-  if (table.size() > before) write_table(path, prior, table);
-  return table;
-}
-
 PosteriorEstimator estimator_of(const ReferenceTable& table, std::size_t simulations) {
   const auto rows = static_cast<Eigen::Index>(simulations);
   return {table.unknowns.topRows(rows), table.summaries.topRows(rows)};
@@ -273,10 +258,14 @@ PosteriorEstimator estimator_of(const ReferenceTable& table, std::size_t simulat
 void calibrate(const CalibrationOptions& options) {
   const PlantPrior prior(model_by_name("weber_penn"));
   fs::create_directories(options.directory);
-  const ReferenceTable table = table_of(options, prior, options.seed, options.simulations + options.truths);
+  const auto table_of = [&](Seed seed, std::size_t size) {
+    return kept_table(options.directory / fmt::format("table_{}.bin", seed), prior, seed, options.height_m,
+                      size);
+  };
+  const ReferenceTable table = table_of(options.seed, options.simulations + options.truths);
   const PosteriorEstimator estimator = estimator_of(table, options.simulations);
   const PosteriorEstimator other =
-      estimator_of(table_of(options, prior, options.seed + 1, options.simulations), options.simulations);
+      estimator_of(table_of(options.seed + 1, options.simulations), options.simulations);
   const std::vector<Unknown> unknowns = unknowns_of(prior);
   std::vector<std::vector<Verdict>> verdicts(options.truths);
   parallel_for(options.truths, [&](std::size_t i) {

@@ -81,6 +81,8 @@ std::string result_to_json(const PosteriorRequest& request, const PosteriorResul
                                  {"height_m", request.height_m},      {"seed", request.seed},
                                  {"simulations", result.simulations}, {"near_draws", near_draws},
                                  {"version", request.version}};
+  if (!request.prior.species.empty()) json["prior"]["species"] = request.prior.species;
+  if (!request.prior.free.empty()) json["prior"]["free"] = request.prior.free;
   json["check"] = {{"distance", result.check.distance},
                    {"usual_distance", result.check.usual},
                    {"tail_share", result.check.tail_share},
@@ -176,7 +178,7 @@ void check_request(const PosteriorRequest& request) {
 PosteriorResult compute_posterior(const PosteriorRequest& request, const Mask& mask,
                                   const fs::path& directory, int threads, const TableProgress& progress) {
   check_request(request);
-  const PlantPrior prior(model_by_name(request.model));
+  const PlantPrior prior(model_by_name(request.model), request.prior);
   const Mask framed = framed_for_summaries(mask);
   const std::vector<double> observed = summaries_of(framed);
   const fs::path path = request.table.empty() ? directory / "table.bin" : request.table;

@@ -19,6 +19,7 @@ struct PosteriorRequest {
   std::size_t simulations = 20'000;
   std::size_t samples = 1000;  ///< rows of samples.csv
   Seed seed = 1;
+  PriorChoice prior;
   std::filesystem::path table;  ///< empty: table.bin in the directory
   std::string version;          ///< of the program, for the files
   TrainingSettings training = posterior_training();
@@ -32,7 +33,8 @@ struct PosteriorResult {
   bool is_complete() const { return !unknowns.empty(); }
 };
 
-/// Throws FieldError ("simulations", "height", "samples") for values out of range.
+/// Throws FieldError ("simulations", "height", "samples") for values out of range; of the prior as
+/// PlantPrior.
 void check_request(const PosteriorRequest& request);
 
 /// `mask`: the tree of the picture at any size. Extends the table first, which is kept where `progress` stops

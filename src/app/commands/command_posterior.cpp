@@ -101,6 +101,16 @@ void add_posterior_command(CLI::App& app) {
   command->add_option("--table", request.table,
                       "a file of these plants, made where there is none, for many pictures of one height "
                       "(default: table.bin in the directory)");
+  command
+      ->add_option("--species", request.prior.species,
+                   "known species of the tree, or presets (default: any of the bundled)")
+      ->delimiter(',');
+  command
+      ->add_option(
+          "--free", request.prior.free,
+          "what is unknown of it, as fit takes it, curves too: 'default,length_along[1]~4' (default: what "
+          "fits are free to change)")
+      ->delimiter(',');
   command->add_option("--seed", request.seed, "of the plants of the prior")->capture_default_str();
   command->add_option("--threads", options->threads, "0: one per processor; changes the speed only")
       ->check(CLI::Range(0, 1024))

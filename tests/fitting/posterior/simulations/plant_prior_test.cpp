@@ -7,6 +7,8 @@
 #include <map>
 #include <set>
 
+#include <espalier/core/curves/parameter_curves.h>
+#include <espalier/core/field_error.h>
 #include <espalier/fitting/posterior/simulations/plant_prior.h>
 #include <espalier/fitting/starts/species_range.h>
 #include <espalier/models/models.h>
@@ -82,6 +84,70 @@ TEST(PlantPrior, KeepsTheSignOfAFlagAndWholeNumbersWhole) {
       EXPECT_GE(plant.values[row] * species[row], 0) << table.rows[row].full_name();
     }
   }
+}
+
+std::vector<double> curve_numbers(const CurveInfo& curve, const ParameterValues& values) {
+  const auto first = values.begin() + static_cast<std::ptrdiff_t>(curve.first_row);
+  return {first, first + kCurveRows};
+}
+
+RC_GTEST_PROP(PlantPrior, MovesACurveThatIsNamedAndNothingElse, (std::uint64_t i)) {
+  static const PlantPrior of_curve(model_by_name("weber_penn"), {.free = {"length_along[1]~4"}});
+  const ParameterTable& table = of_curve.model().table();
+  const CurveInfo& curve = *table.curve_of(of_curve.rows().front());
+  const PlantDraw plant = of_curve.draw(child_key(root_key(3), i));
+  ParameterValues expected = of_curve.species()[plant.species].values;
+  RC_ASSERT(curve_numbers(curve, plant.values) != curve_numbers(curve, expected));
+  const std::vector<double> refined = curve_numbers(curve, plant.values);
+  const Curve by_four = make_curve(coarse_numbers(curve, plant.values, 4));
+  for (std::size_t k = 0; k < kCurveRows; ++k) {
+    RC_ASSERT(std::fabs(refined[k] - by_four.numbers[k]) < 1e-9);
+    expected[curve.first_row + k] = plant.values[curve.first_row + k];
+  }
+  RC_ASSERT(plant.values == expected);
+  RC_ASSERT(of_curve.rows().size() == kCurveRows);
+}
+
+RC_GTEST_PROP(PlantPrior, MovesTheOtherParametersAsWithoutTheCurve, (std::uint64_t i)) {
+  static const PlantPrior with_curve(model_by_name("weber_penn"), {.free = {"default", "bend_along[0]"}});
+  const RandomKey key = child_key(root_key(3), i);
+  const PlantDraw with = with_curve.draw(key), without = prior().draw(key);
+  for (const std::size_t row : prior().rows()) RC_ASSERT(with.values[row] == without.values[row]);
+  RC_ASSERT(with_curve.rows().size() == prior().rows().size() + kCurveRows);
+}
+
+/// The searched range of this curve, 120 degrees about 0, shows the whole normal distribution.
+TEST(PlantPrior, MovesCurvesByAFifthOfTheirRange) {
+  const PlantPrior of_curve(model_by_name("weber_penn"), {.free = {"down_angle_along[1]"}});
+  double squares = 0, sum = 0;
+  constexpr int kDraws = 2000;
+  for (std::uint64_t i = 0; i < kDraws; ++i) {
+    const double number = of_curve.draw(child_key(root_key(3), i)).values[of_curve.rows()[3]];
+    sum += number, squares += number * number;
+  }
+  EXPECT_NEAR(sum / kDraws, 0, 2);
+  EXPECT_NEAR(std::sqrt(squares / kDraws), 24, 1.5);
+}
+
+TEST(PlantPrior, KeepsToASpeciesThatIsKnown) {
+  const PlantPrior of_larch(model_by_name("weber_penn"), {.species = {"european_larch"}});
+  EXPECT_EQ(of_larch.rows(), prior().rows());
+  ASSERT_EQ(of_larch.species().size(), 1U);
+  std::size_t larch = 0;
+  while (prior().species()[larch].name != "european_larch") ++larch;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const PlantDraw any = draw(i);
+    if (any.species != larch) continue;
+    EXPECT_EQ(of_larch.draw(child_key(root_key(3), i)).values, any.values);
+  }
+}
+
+TEST(PlantPrior, RefusesWhatItCannotMove) {
+  const Model& model = model_by_name("weber_penn");
+  for (const char* name :
+       {"g_scale", "lengthh_along[1]", "length_along[1]~3", "branches[1]~4", "crown_top_x"})
+    EXPECT_THROW(PlantPrior(model, {.free = {name}}), FieldError) << name;
+  EXPECT_THROW(PlantPrior(model, {.species = {"no_such_species"}}), InputError);
 }
 
 }  // namespace
