@@ -14,6 +14,13 @@ if(ESPALIER_SANITIZE)
   target_link_options(espalier_options INTERFACE -fsanitize=${ESPALIER_SANITIZE})
 endif()
 
+# For sources in which nothing is hot, tests and what parses the command line: they compile in a third less time, and
+# with sanitizers in two fifths of it.
+set(ESPALIER_COLD_OPTIONS $<$<CONFIG:Release>:-O1>)
+if(ESPALIER_SANITIZE)
+  set(ESPALIER_COLD_OPTIONS -O0)
+endif()
+
 # All presets but debug compile each room, and each test program, as one file (CMAKE_UNITY_BUILD): two fifths of the
 # time. Not part of that are sources with a local name that another file of the room has too, and those that Highway
 # compiles once for each instruction set. Where such a build says 'redefinition', give one of the two another name, or
