@@ -9,6 +9,7 @@
 #include <espalier/core/files.h>
 #include <espalier/experiments/posteriors/target_posteriors.h>
 
+#include "support/small_training.h"
 #include "support/temporary_folders.h"
 
 namespace espalier {
@@ -31,6 +32,7 @@ TargetPosteriorOptions small_options(std::size_t stop_at = 1'000'000) {
       .reading = {.one_tree = true},
       .simulations = kLeastTableSize,
       .version = "test",
+      .training = small_training(),
       .on_progress = [stop_at](const std::string&, std::size_t done, std::size_t) { return done < stop_at; }};
 }
 
