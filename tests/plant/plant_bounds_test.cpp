@@ -64,13 +64,13 @@ TEST(PlantBounds, IsThatOfAllPartsWhateverTheirOrder) {
   inner_last.leaves = {{{0, 0, 1}, {0, 1.4f, 1}},
                        {{0, 0, 1}, {0, 1, 0}},
                        {{1, 0, 0}, {1, 0, 0}},
-                       {0.5f, 0.2f},
+                       {0.5f, 0.5f},
                        {0.1f, 0.1f},
                        {LeafKind::leaf, LeafKind::blossom}};
   inner_first.leaves = {{{0, 1.4f, 1}, {0, 0, 1}},
                         {{0, 1, 0}, {0, 0, 1}},
                         {{1, 0, 0}, {1, 0, 0}},
-                        {0.2f, 0.5f},
+                        {0.5f, 0.5f},
                         {0.1f, 0.1f},
                         {LeafKind::blossom, LeafKind::leaf}};
   EXPECT_EQ(bounds(inner_last).lower, bounds(inner_first).lower);
