@@ -66,7 +66,8 @@ void write_target_posteriors(const fs::path& directory, const std::vector<Poster
                                    .height_m = target.height_m,
                                    .simulations = options.simulations,
                                    .table = folder / fmt::format("plants_{:g}.bin", target.height_m),
-                                   .version = options.version};
+                                   .version = options.version,
+                                   .training = options.training};
     const TargetPicture picture = read_mask(target.picture, options.reading);
     const PosteriorResult result = compute_posterior(
         request, picture.mask, folder / target.directory, options.threads,

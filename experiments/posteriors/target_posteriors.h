@@ -32,6 +32,7 @@ struct TargetPosteriorOptions {
   std::size_t simulations = PosteriorRequest{}.simulations;
   int threads = 0;
   std::string version;  ///< of the program, for the files
+  TrainingSettings training = posterior_training();
   /// Asked between blocks of plants; false stops.
   std::function<bool(const std::string& target, std::size_t done, std::size_t wanted)> on_progress;
 };

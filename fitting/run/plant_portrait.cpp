@@ -16,11 +16,11 @@ namespace {
 
 constexpr int kMeasuredPx = 256;  ///< side of the picture that wood is counted in
 constexpr int kMaxTilePx = 320, kMinTilePx = 120, kMarginPx = 8, kTitlePx = 20;
-constexpr int kSamples = 9;  ///< rays a pixel of the sheet
+constexpr int kSamples = 4;  ///< rays a pixel of the sheet: with 9 it took most of the time of a short fit
 
-/// The extent of the plant across a direction that looks at it from `azimuth_deg`.
-float width_m(const Plant& plant, float azimuth_deg) {
-  const Camera camera = frame_bounds(bounds(plant), {azimuth_deg, 0}, kMeasuredPx, kMeasuredPx);
+/// The extent of the plant in this box across a direction that looks at it from `azimuth_deg`.
+float width_m(const Plant& plant, const Bounds& box, float azimuth_deg) {
+  const Camera camera = frame_bounds(box, {azimuth_deg, 0}, kMeasuredPx, kMeasuredPx);
   Mask mask;
   make_scanline_renderer()->draw(plant, camera, mask);
   return area_px(mask) == 0 ? 0 : static_cast<float>(box_of(mask).width()) * camera.metres_per_px;
@@ -51,22 +51,22 @@ Picture target_tile(const TargetView& target) {
   return tile;
 }
 
-/// The plant as the target's camera sees it, from another side.
-Picture shaded_tile(const Plant& plant, const TargetView& target, const View& view) {
+/// The target's camera for a tile, from another side.
+Camera tile_camera(const TargetView& target, const View& view) {
   const int side_px = tile_px(target);
   const float metres_per_px = target.metres_per_px * static_cast<float>(target.target.mask().width_px()) /
                               static_cast<float>(side_px);
-  return render_shaded(plant,
-                       frame_base({0, 0, 0}, view, metres_per_px, side_px, side_px, base_row_px(side_px)),
-                       {.samples_per_px = kSamples});
+  return frame_base({0, 0, 0}, view, metres_per_px, side_px, side_px, base_row_px(side_px));
 }
 
 }  // namespace
 
 PlantPortrait portray(const Plant& plant, const View& front, const Overrides& overrides) {
   const View level{front.azimuth_deg, 0};
-  const Camera camera = frame_bounds(bounds(plant), level, kMeasuredPx, kMeasuredPx);
-  const float width = width_m(plant, front.azimuth_deg), depth = width_m(plant, front.azimuth_deg + 90);
+  const Bounds box = bounds(plant);
+  const Camera camera = frame_bounds(box, level, kMeasuredPx, kMeasuredPx);
+  const float width = width_m(plant, box, front.azimuth_deg),
+              depth = width_m(plant, box, front.azimuth_deg + 90);
   return {.visible_wood = count_visible_parts(plant, camera).wood_share(),
           .crown_wood = count_visible_parts(without_trunks(plant), camera).wood_share(),
           .depth_over_width = width > 0 ? depth / width : 0,
@@ -77,16 +77,18 @@ PlantPortrait portray(const Plant& plant, const View& front, const Overrides& ov
 
 Picture plant_sheet(const Plant& plant, const TargetView& target, const View& front) {
   const auto from = [&](float azimuth, float elevation) {
-    return shaded_tile(plant, target, {front.azimuth_deg + azimuth, elevation});
+    return tile_camera(target, {front.azimuth_deg + azimuth, elevation});
   };
+  const Camera cameras[] = {from(0, 0), from(90, 0), from(45, 15)};
+  const std::vector<Picture> shaded = render_shaded(plant, cameras, {.samples_per_px = kSamples});
   struct Tile {
     const char* title;
     Picture picture;
   };
   const Tile tiles[] = {{"target", target_tile(target)},
-                        {"front", from(0, 0)},
-                        {"side", from(90, 0)},
-                        {"three quarters", from(45, 15)}};
+                        {"front", shaded[0]},
+                        {"side", shaded[1]},
+                        {"three quarters", shaded[2]}};
   const int side_px = tile_px(target);
   ChartLayout layout;
   float left = kMarginPx;

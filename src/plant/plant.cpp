@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
+#include <span>
 
 #include <espalier/plant/leaf_outlines.h>
 #include <espalier/plant/plant.h>
@@ -20,6 +22,29 @@ void include(Bounds& box, Vec3 lower, Vec3 upper) {
                std::max(box.upper.z, upper.z)};
 }
 
+/// Rounding moves a point of a curve out of the box of its control points by less than this share.
+constexpr float kRounding = 1e-5f;
+
+/// Whether nothing within `reach` of the box from lower to upper can widen `box`.
+bool holds(const Bounds& box, Vec3 lower, Vec3 upper, Vec3 reach) {
+  const auto within = [](float least, float low, float high, float most, float by) {
+    const float margin = by + kRounding * (std::fabs(low) + std::fabs(high) + by);
+    return least <= low - margin && high + margin <= most;
+  };
+  return within(box.lower.x, lower.x, upper.x, box.upper.x, reach.x) &&
+         within(box.lower.y, lower.y, upper.y, box.upper.y, reach.y) &&
+         within(box.lower.z, lower.z, upper.z, box.upper.z, reach.z);
+}
+
+/// A curve lies within the box of its control points: most segments need no closer look.
+bool holds_segment(const Bounds& box, const Knots& knots, std::size_t k) {
+  Bounds hull{knots.point_m[k], knots.point_m[k]};
+  for (const Vec3 p : {knots.handle_out_m[k], knots.handle_in_m[k + 1], knots.point_m[k + 1]})
+    include(hull, p, p);
+  const float radius = std::max(std::fabs(knots.radius_m[k]), std::fabs(knots.radius_m[k + 1]));
+  return holds(box, hull.lower, hull.upper, {radius, radius, radius});
+}
+
 /// Half the width along one axis of a unit disc whose normal has this component there.
 float disc_extent(float normal_component) {
   return std::sqrt(std::max(0.0f, 1 - normal_component * normal_component));
@@ -32,6 +57,7 @@ void include_disc(Bounds& box, Vec3 center, Vec3 normal, float radius) {
 
 /// The segment between knots k and k + 1 as discs across the curve.
 void include_segment(Bounds& box, const Knots& knots, std::size_t k) {
+  if (holds_segment(box, knots, k)) return;
   const Vec3 p0 = knots.point_m[k], p1 = knots.handle_out_m[k];
   const Vec3 p2 = knots.handle_in_m[k + 1], p3 = knots.point_m[k + 1];
   const Vec3 chord = normalized(p3 - p0);
@@ -49,20 +75,40 @@ void include_stems(Bounds& box, const Plant& plant) {
       include_segment(box, plant.knots, k);
 }
 
-void include_leaf(Bounds& box, const Leaves& leaves, std::size_t i, const LeafOutline& outline) {
+Vec3 absolute(Vec3 v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+
+/// An outline and how far it reaches along each of its axes.
+struct ReachingOutline {
+  explicit ReachingOutline(const LeafOutline& outline) : vertices(outline.vertices) {
+    for (const Vec3 v : vertices)
+      reach = {std::max(reach.x, std::fabs(v.x)), std::max(reach.y, std::fabs(v.y)),
+               std::max(reach.z, std::fabs(v.z))};
+  }
+  std::span<const Vec3> vertices;
+  Vec3 reach{};
+};
+
+void include_leaf(Bounds& box, const Leaves& leaves, std::size_t i, const ReachingOutline& outline) {
   const Vec3 side = leaves.side[i] * leaves.width_m[i], axis = leaves.axis[i] * leaves.length_m[i];
   const Vec3 normal = cross(leaves.side[i], leaves.axis[i]) * leaves.length_m[i];
+  const Vec3 stalk = leaves.position_m[i], reach = outline.reach;
+  const Vec3 around = absolute(side) * reach.x + absolute(axis) * reach.y + absolute(normal) * reach.z;
+  if (holds(box, stalk, stalk, around)) return;
   for (const Vec3 v : outline.vertices) {
-    const Vec3 point = leaves.position_m[i] + side * v.x + axis * v.y + normal * v.z;
+    const Vec3 point = stalk + side * v.x + axis * v.y + normal * v.z;
     include(box, point, point);
   }
 }
 
 void include_leaves(Bounds& box, const Plant& plant) {
-  for (std::size_t i = 0; i < plant.leaves.size(); ++i)
-    include_leaf(box, plant.leaves, i,
-                 plant.leaves.kind[i] == LeafKind::leaf ? leaf_outline(plant.leaf_shape)
-                                                        : blossom_outline(plant.blossom_shape));
+  std::optional<ReachingOutline> leaf, blossom;  // a shape that no part has need not be one
+  for (std::size_t i = 0; i < plant.leaves.size(); ++i) {
+    const bool is_leaf = plant.leaves.kind[i] == LeafKind::leaf;
+    std::optional<ReachingOutline>& outline = is_leaf ? leaf : blossom;
+    if (!outline)
+      outline.emplace(is_leaf ? leaf_outline(plant.leaf_shape) : blossom_outline(plant.blossom_shape));
+    include_leaf(box, plant.leaves, i, *outline);
+  }
 }
 
 }  // namespace

@@ -51,6 +51,34 @@ TEST(PlantBounds, ALeafReachesItsTip) {
   EXPECT_EQ(box.upper, (Vec3{3, 2, 5}));
 }
 
+/// What lies within the box of others is passed over; what juts out of it by a little is not.
+TEST(PlantBounds, IsThatOfAllPartsWhateverTheirOrder) {
+  Plant inner_last, inner_first;
+  const auto add_outer = [](Plant& plant) {
+    add_stem(plant, {-1, -1, 0}, {-1, -1, 1}, {1, 1, 2}, {1, 1, 3}, 0.5f);
+  };
+  const auto add_inner = [](Plant& plant) {
+    add_stem(plant, {0, 0, 0}, {2.2f, 0, 1}, {2.2f, 0, 2}, {0, 0, 3}, 0.1f);
+  };
+  add_outer(inner_last), add_inner(inner_last), add_inner(inner_first), add_outer(inner_first);
+  inner_last.leaves = {{{0, 0, 1}, {0, 1.4f, 1}},
+                       {{0, 0, 1}, {0, 1, 0}},
+                       {{1, 0, 0}, {1, 0, 0}},
+                       {0.5f, 0.5f},
+                       {0.1f, 0.1f},
+                       {LeafKind::leaf, LeafKind::blossom}};
+  inner_first.leaves = {{{0, 1.4f, 1}, {0, 0, 1}},
+                        {{0, 1, 0}, {0, 0, 1}},
+                        {{1, 0, 0}, {1, 0, 0}},
+                        {0.5f, 0.5f},
+                        {0.1f, 0.1f},
+                        {LeafKind::blossom, LeafKind::leaf}};
+  EXPECT_EQ(bounds(inner_last).lower, bounds(inner_first).lower);
+  EXPECT_EQ(bounds(inner_last).upper, bounds(inner_first).upper);
+  EXPECT_NEAR(bounds(inner_last).upper.x, 0.75f * 2.2f + 0.1f, 1e-4f);
+  EXPECT_GT(bounds(inner_last).upper.y, 1.55f);
+}
+
 TEST(PlantBounds, ClearEmptiesEveryArrayAndKeepsMemory) {
   Plant plant;
   add_stem(plant, {0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 0, 3}, 0.5f);

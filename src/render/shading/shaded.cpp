@@ -120,11 +120,10 @@ bool contains(const PixelRectangle& rectangle, int x, int y) {
 
 }  // namespace
 
-Picture render_shaded(const Plant& plant, const Camera& camera, const ShadedSettings& settings,
-                      const SceneObjects& objects) {
-  ESPALIER_CHECK_EQ(settings.samples_per_px >= 1 && settings.samples_per_px <= 1024, true);
-  EmbreeScene scene(SceneQuality::fast_trace);
-  scene.build(plant, stem_tolerance_m(plant, camera), objects);
+namespace {
+
+Picture trace_shaded(const Plant& plant, const EmbreeScene& scene, const Camera& camera,
+                     const ShadedSettings& settings) {
   const SurfaceFinder surfaces(plant, scene, settings);
   const Camera traced = moved_before(camera, drawn_box(scene.box_m(), settings));
   const Shader shader{surfaces, settings, sun_direction(camera, settings)};
@@ -136,6 +135,28 @@ Picture render_shaded(const Plant& plant, const Camera& camera, const ShadedSett
       picture.at(x, y) = settings.ground || contains(covered, x, y) ? pixel_color(shader, traced, x, y)
                                                                     : background_color(settings, camera, y);
   return picture;
+}
+
+}  // namespace
+
+std::vector<Picture> render_shaded(const Plant& plant, std::span<const Camera> cameras,
+                                   const ShadedSettings& settings, const SceneObjects& objects) {
+  ESPALIER_CHECK_EQ(settings.samples_per_px >= 1 && settings.samples_per_px <= 1024, true);
+  EmbreeScene scene(SceneQuality::fast_trace);
+  float built_for_m = 0;  // tolerance
+  std::vector<Picture> pictures;
+  for (const Camera& camera : cameras) {
+    const float tolerance_m = stem_tolerance_m(plant, camera);
+    if (tolerance_m != built_for_m) scene.build(plant, tolerance_m, objects);
+    built_for_m = tolerance_m;
+    pictures.push_back(trace_shaded(plant, scene, camera, settings));
+  }
+  return pictures;
+}
+
+Picture render_shaded(const Plant& plant, const Camera& camera, const ShadedSettings& settings,
+                      const SceneObjects& objects) {
+  return std::move(render_shaded(plant, std::span(&camera, 1), settings, objects).front());
 }
 
 }  // namespace espalier

@@ -3,6 +3,9 @@
 // cannot reach gets a constant. Colours are linear RGB (a Vec3 of red, green, blue; 1 is white); pictures are
 // sRGB.
 #pragma once
+#include <span>
+#include <vector>
+
 #include <espalier/core/vec3.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/plant/plant.h>
@@ -31,5 +34,9 @@ struct ShadedSettings {
 /// any number of threads.
 Picture render_shaded(const Plant& plant, const Camera& camera, const ShadedSettings& settings = {},
                       const SceneObjects& objects = {});
+
+/// The same from several sides: what rays meet is built once for cameras of one scale.
+std::vector<Picture> render_shaded(const Plant& plant, std::span<const Camera> cameras,
+                                   const ShadedSettings& settings = {}, const SceneObjects& objects = {});
 
 }  // namespace espalier

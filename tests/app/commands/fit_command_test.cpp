@@ -26,10 +26,11 @@ const std::string kPalm = "'" ESPALIER_SOURCE_DIR "/targets/oc_palm.png'";
 const std::string kSmall =
     kPalm + " --size 32 --start palm --max-stems 300 --max-leaves 3000 --threads 2 --quiet ";
 
-/// A small fit into `run` of this many evaluations.
-std::string small_fit(const fs::path& run, long evaluations, const std::string& more = "") {
-  return "fit " + kSmall + "--evaluations " + std::to_string(evaluations) + " --out '" + run.string() + "' " +
-         more;
+/// A small fit into `run` of this many evaluations, and of one round of branches.
+std::string small_fit(const fs::path& run, long evaluations, const std::string& more = "",
+                      const std::string& rounds = "1") {
+  return fmt::format("fit {}--evaluations {} --branch-rounds {} --out '{}' {}", kSmall, evaluations, rounds,
+                     run.string(), more);
 }
 
 std::string trace_without_seconds(const fs::path& run) {
@@ -50,8 +51,8 @@ void expect_error(const std::string& arguments, const std::string& words) {
 
 TEST(FitCommand, FitsAndSaysWhereTheFilesAre) {
   const fs::path run = fresh_folder("plain") / "run";
-  const ProgramRun done =
-      run_espalier("fit " + kPalm + " --size 32 --start palm --evaluations 30 --out " + run.string());
+  const ProgramRun done = run_espalier(
+      "fit " + kPalm + " --size 32 --start palm --evaluations 30 --branch-rounds 1 --out " + run.string());
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, HasSubstr(run.string()));
   EXPECT_THAT(done.out, HasSubstr("IoU"));
@@ -67,15 +68,15 @@ TEST(FitCommand, IsSilentWhenQuiet) {
 
 TEST(FitCommand, AKilledRunIsValidAndResumesToTheUnbrokenRun) {
   const fs::path folder = fresh_folder("kill");
-  ASSERT_EQ(run_espalier(small_fit(folder / "unbroken", 600)).exit_code, 0);
+  ASSERT_EQ(run_espalier(small_fit(folder / "unbroken", 600, "", "4")).exit_code, 0);
   std::mt19937 random(std::random_device{}());
   const fs::path broken = folder / "broken";
   int kills = 0;
   for (int attempt = 0; attempt < 6; ++attempt) {
-    const int delay_ms = 100 + static_cast<int>(random() % 900);
+    const int delay_ms = 100 + static_cast<int>(random() % 700);
     const bool resume = fs::exists(broken / "run.toml");
     const std::string command =
-        resume ? "fit --quiet --resume '" + broken.string() + "'" : small_fit(broken, 600);
+        resume ? "fit --quiet --resume '" + broken.string() + "'" : small_fit(broken, 600, "", "4");
     if (!resume) fs::remove_all(broken);
     kills += WIFSIGNALED(run_and_signal(command, delay_ms, SIGKILL));
     if (fs::exists(broken / "summary.json")) {
@@ -92,13 +93,13 @@ TEST(FitCommand, AKilledRunIsValidAndResumesToTheUnbrokenRun) {
 TEST(FitCommand, CtrlCWritesTheResultAndTheRunRepeatsByItsCount) {
   const fs::path folder = fresh_folder("interrupt"), run = folder / "run";
   const std::string endless = "fit " + kSmall + "--seconds 1000 --out '" + run.string() + "'";
-  const int status = run_and_interrupt(endless, run / "run.toml", 1500);
+  const int status = run_and_interrupt(endless, run / "run.toml", 300);
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0);
   const auto summary = nlohmann::json::parse(read_text_file(run / "summary.json"));
   EXPECT_EQ(summary["stopped_by"], "interrupted");
-  const std::string rounds = "--branch-rounds " + summary["branch_rounds"].dump();
-  ASSERT_EQ(run_espalier(small_fit(folder / "by_count", summary["evaluations"], rounds)).exit_code, 0);
+  const std::string rounds = summary["branch_rounds"].dump();
+  ASSERT_EQ(run_espalier(small_fit(folder / "by_count", summary["evaluations"], "", rounds)).exit_code, 0);
   EXPECT_EQ(read_text_file(folder / "by_count" / "best.toml"), read_text_file(run / "best.toml"));
   const std::string repeat =
       "fit --quiet --repeat '" + run.string() + "' --out '" + (folder / "again").string() + "'";
@@ -180,7 +181,7 @@ TEST(FitCommand, AStartBeyondTheBudgetIsSaidToBe) {
   const fs::path run = fresh_folder("beyond") / "run";
   const ProgramRun done =
       run_espalier(fmt::format("fit {}/targets/fir.png --start quaking_aspen --stages starts --max-leaves "
-                               "100 --evaluations 5 --out {}",
+                               "100 --evaluations 5 --size 64 --out {}",
                                ESPALIER_SOURCE_DIR, run.string()));
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.err, HasSubstr("espalier: warning: start 'quaking_aspen': got "));
@@ -253,10 +254,10 @@ TEST(FitCommand, RefusesToResumeWithAnotherPicture) {
   const fs::path picture = folder / "tree.png";
   fs::copy_file(ESPALIER_SOURCE_DIR "/targets/oc_palm.png", picture);
   const std::string run = (folder / "run").string();
-  ASSERT_EQ(
-      run_espalier("fit " + picture.string() + " --size 32 --start palm --evaluations 5 --quiet --out " + run)
-          .exit_code,
-      0);
+  ASSERT_EQ(run_espalier("fit " + picture.string() +
+                         " --size 32 --start palm --evaluations 5 --branch-rounds 0 --quiet --out " + run)
+                .exit_code,
+            0);
   fs::copy_file(ESPALIER_SOURCE_DIR "/targets/oc_cypress.png", picture, fs::copy_options::overwrite_existing);
   expect_error("--resume " + run, "another picture");
 }

@@ -162,9 +162,11 @@ TEST(LsystemCommand, LsystemsAreModels) {
   const std::string mask = (folder / "mask.png").string(), run = (folder / "run").string();
   EXPECT_EQ(run_espalier("mask monopodial.lsys --size 64 --set branch_angle=50 -o '" + mask + "'").exit_code,
             0);
-  const ProgramRun fit = run_espalier(
-      "fit '" + mask + "' --model monopodial.lsys --free branch_angle,trunk_ratio --evaluations 30 --out '" +
-      run + "'");
+  const ProgramRun fit =
+      run_espalier("fit '" + mask +
+                   "' --model monopodial.lsys --free branch_angle,trunk_ratio --evaluations 30 --size 64 "
+                   "--branch-rounds 1 --out '" +
+                   run + "'");
   EXPECT_EQ(fit.exit_code, 0) << fit.err;
   // Its plants are within the budget: they were drawn and compared.
   EXPECT_EQ(fit.out.find("IoU 0.0000"), std::string::npos) << fit.out;
@@ -187,9 +189,10 @@ TEST(LsystemCommand, ExamplesWorkAsTheyStand) {
       run_espalier("lsystem '" + models + "mycelis.lsys' --frames 6 -o" + in_folder("growth.gif") + small)
           .exit_code,
       0);
-  const ProgramRun fit =
-      run_espalier("fit '" ESPALIER_SOURCE_DIR "/targets/fir.png' --model '" + models +
-                   "small_pine.lsys' --free branch_angle,reach --evaluations 20 --out" + in_folder("run"));
+  const ProgramRun fit = run_espalier(
+      "fit '" ESPALIER_SOURCE_DIR "/targets/fir.png' --model '" + models +
+      "small_pine.lsys' --free branch_angle,reach --evaluations 20 --size 32 --branch-rounds 1 --out" +
+      in_folder("run"));
   EXPECT_EQ(fit.exit_code, 0) << fit.err;
 }
 

@@ -12,6 +12,7 @@
 #include <espalier/fitting/posterior/simulations/reference_table.h>
 #include <espalier/models/models.h>
 
+#include "support/posterior_table.h"
 #include "support/prior_silhouettes.h"
 #include "support/small_training.h"
 #include "support/temporary_folders.h"
@@ -22,9 +23,18 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
+const PlantPrior& prior() {
+  static const PlantPrior made(model_by_name("weber_penn"));
+  return made;
+}
+
 /// A table that all tests share.
 fs::path shared_table() {
-  static const fs::path path = fresh_folder("posterior_table") / "table.bin";
+  static const fs::path path = [] {
+    const fs::path file = fresh_folder("posterior_table") / "table.bin";
+    take_kept_table(prior(), kLeastTableSize, file);
+    return file;
+  }();
   return path;
 }
 
@@ -55,9 +65,27 @@ const std::vector<std::string>& result_files() {
   return names;
 }
 
+struct WholeRun {
+  fs::path folder = fresh_folder("posterior_whole");
+  PosteriorResult result = compute_posterior(small_request(), tree_of(1), folder, 1, always);
+};
+
+/// The run that makes the table where there is none.
+const WholeRun& whole_run() {
+  static const WholeRun run;
+  return run;
+}
+
+/// The table of the whole run, or of others of its seed and height.
+ReferenceTable table_at(const fs::path& path) { return read_table(path, prior(), 1, 10); }
+
+ReferenceTable whole_table() {
+  whole_run();
+  return table_at(shared_table());
+}
+
 TEST(PosteriorRun, LeavesSamplesIntervalsAndPictures) {
-  const fs::path folder = fresh_folder("posterior_run");
-  const PosteriorResult result = compute_posterior(small_request(), tree_of(1), folder, 0, always);
+  const auto& [folder, result] = whole_run();
   ASSERT_TRUE(result.is_complete());
   for (const std::string& name : result_files()) EXPECT_TRUE(fs::exists(folder / name)) << name;
   const std::string samples = read_file(folder / "samples.csv"),
@@ -78,22 +106,36 @@ TEST(PosteriorRun, LeavesSamplesIntervalsAndPictures) {
   EXPECT_THAT(posterior_in_words(result), HasSubstr("crown_volume"));
 }
 
+bool are_equal(const ReferenceTable& a, const ReferenceTable& b) {
+  return a.unknowns == b.unknowns && a.summaries == b.summaries && a.species == b.species &&
+         a.attempt == b.attempt;
+}
+
+/// Stopped, it leaves the first rows of the unbroken table; with such rows it ends as the unbroken run.
+/// Between the two steps are simulations that are the same rows again: they are taken from that table.
 TEST(PosteriorRun, StoppedAndGoneOnWithIsTheSame) {
-  const fs::path whole = fresh_folder("posterior_whole"), parts = fresh_folder("posterior_parts");
+  const ReferenceTable table = whole_table();
+  const fs::path parts = fresh_folder("posterior_parts");
   PosteriorRequest request = small_request();
-  compute_posterior(request, tree_of(2), whole, 1, always);
   request.table.clear();
-  const PosteriorResult stopped = compute_posterior(
-      request, tree_of(2), parts, 2, [](std::size_t done, std::size_t) { return done < 1000; });
+  const PosteriorResult stopped = compute_posterior(request, tree_of(1), parts, 2,
+                                                    [](std::size_t done, std::size_t) { return done < 100; });
   EXPECT_FALSE(stopped.is_complete());
-  EXPECT_GE(stopped.simulations, 1000u);
+  EXPECT_GE(stopped.simulations, 100u);
   EXPECT_FALSE(fs::exists(parts / "samples.csv"));
-  EXPECT_TRUE(compute_posterior(request, tree_of(2), parts, 2, always).is_complete());
+  const ReferenceTable left = table_at(parts / "table.bin");
+  ASSERT_EQ(left.size(), stopped.simulations);
+  ASSERT_LT(left.size(), table.size());
+  EXPECT_TRUE(are_equal(left, first_rows(table, left.size())));
+  write_table(parts / "table.bin", prior(), first_rows(table, table.size() - 100));
+  EXPECT_TRUE(compute_posterior(request, tree_of(1), parts, 2, always).is_complete());
+  EXPECT_TRUE(are_equal(table_at(parts / "table.bin"), table));
   for (const std::string& name : result_files())
-    EXPECT_EQ(read_file(whole / name), read_file(parts / name)) << name;
+    EXPECT_EQ(read_file(whole_run().folder / name), read_file(parts / name)) << name;
 }
 
 TEST(PosteriorRun, OfASquareSaysThatNoPlantMakesItAndGivesThePrior) {
+  whole_run();
   const PosteriorResult result =
       compute_posterior(small_request(), square(), fresh_folder("posterior_square"), 0, always);
   EXPECT_FALSE(result.check.is_likely());
@@ -102,44 +144,50 @@ TEST(PosteriorRun, OfASquareSaysThatNoPlantMakesItAndGivesThePrior) {
 }
 
 TEST(PosteriorRun, OfTreesOfThePriorIsSeldomUnlikely) {
-  int unlikely = 0;
-  for (std::uint64_t i = 10; i < 16; ++i)
+  int unlikely = !whole_run().result.check.is_likely();
+  for (std::uint64_t i = 10; i < 13; ++i)
     unlikely += !compute_posterior(small_request(), tree_of(i), fresh_folder("posterior_trees"), 0, always)
                      .check.is_likely();
   EXPECT_LE(unlikely, 1);
 }
 
-/// Mean share of the unknowns of trees outside of the table that lie in their 90 % intervals, these narrowed.
-double coverage_90(double narrowed) {
+struct JudgedTree {
+  std::vector<double> unknowns;
+  Posterior posterior;
+};
+
+/// Trees outside of the table, and what it makes of their pictures.
+std::vector<JudgedTree> judged_trees() {
   constexpr std::uint64_t kTrees = 100;
-  static const PlantPrior prior(model_by_name("weber_penn"));
-  const ReferenceTable table = read_table(shared_table(), prior, 1, 10);
-  const auto rows = static_cast<Eigen::Index>(kLeastTableSize);
-  const PosteriorEstimator estimator(table.unknowns.topRows(rows), table.summaries.topRows(rows),
-                                     small_training());
-  PlantSimulator simulator(prior, 10);
+  const ReferenceTable table = whole_table();
+  const PosteriorEstimator estimator(table.unknowns, table.summaries, small_training());
+  PlantSimulator simulator(prior(), 10);
+  std::vector<JudgedTree> trees;
+  for (std::uint64_t i = 0; i < kTrees; ++i)
+    if (Simulation tree; simulator.simulate(prior().draw(child_key(root_key(99), i)), tree))
+      trees.push_back({tree.unknowns, estimator.estimate(tree.summaries)});
+  return trees;
+}
+
+/// Mean share of the trees' unknowns that lie in their 90 % intervals, these narrowed.
+double coverage_90(const std::vector<JudgedTree>& trees, double narrowed) {
   double held = 0, counted = 0;
-  for (std::uint64_t i = 0; i < kTrees; ++i) {
-    Simulation tree;
-    if (!simulator.simulate(prior.draw(child_key(root_key(99), i)), tree)) continue;
-    const Posterior posterior = estimator.estimate(tree.summaries);
-    for (std::size_t k = 0; k < tree.unknowns.size(); ++k) {
+  for (const auto& [unknowns, posterior] : trees)
+    for (std::size_t k = 0; k < unknowns.size(); ++k) {
       const double middle = posterior_quantile(posterior, k, 0.5);
       const double lower = middle + narrowed * (posterior_quantile(posterior, k, 0.05) - middle);
       const double upper = middle + narrowed * (posterior_quantile(posterior, k, 0.95) - middle);
-      held += lower <= tree.unknowns[k] && tree.unknowns[k] <= upper ? 1 : 0;
+      held += lower <= unknowns[k] && unknowns[k] <= upper ? 1 : 0;
       counted += 1;
     }
-  }
   return held / counted;
 }
 
 /// The large version is experiments/posterior_calibration.cpp.
 TEST(PosteriorRun, IntervalsHoldTheTreesOfThePriorAndNarrowerOnesDoNot) {
-  compute_posterior(small_request(), tree_of(1), fresh_folder("posterior_coverage"), 0,
-                    always);  // makes the table
-  EXPECT_NEAR(coverage_90(1), 0.9, 0.025);
-  EXPECT_LT(coverage_90(2.0 / 3), 0.82);
+  const std::vector<JudgedTree> trees = judged_trees();
+  EXPECT_NEAR(coverage_90(trees, 1), 0.9, 0.025);
+  EXPECT_LT(coverage_90(trees, 2.0 / 3), 0.82);
 }
 
 TEST(PosteriorRun, RefusesTooFewSimulationsAndHeightsThatAreNone) {

@@ -104,6 +104,17 @@ TEST(Shaded, AnyNumberOfThreadsGivesTheSameBits) {
   EXPECT_EQ(one.pixels, three.pixels);
 }
 
+TEST(Shaded, SeveralSidesAreThoseOfEachAlone) {
+  const Plant plant = random_tree(40, 300, 2);
+  Camera near = camera_of(plant, 48);
+  near.metres_per_px /= 8;  // finer cones
+  const Camera cameras[] = {camera_of(plant, 48), camera_of(plant, 48, 30), near};
+  const std::vector<Picture> together = render_shaded(plant, cameras);
+  ASSERT_EQ(together.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(together[i].pixels, render_shaded(plant, cameras[i]).pixels) << i;
+}
+
 TEST(Shaded, LeavesOfOneShadeLookAlike) {
   Plant plant;
   plant.leaf_shape = 9;
