@@ -96,6 +96,7 @@ Measured measure(const FitResult& result, const FitCell& cell) {
 std::optional<Measured> run_cell(const FitCell& cell, const fs::path& directory, const RunContext& context) {
   FitExecution options;
   options.threads = cell.threads;
+  options.keep_pictures = false;  // they are the experiment's, and one for many runs
   options.resume = can_resume(directory, cell.record);
   options.stop_requested = context.stop_requested;
   options.on_progress = [&](const FitProgress& progress) {

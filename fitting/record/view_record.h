@@ -1,6 +1,8 @@
 // A picture of the tree and where it was taken from, as words, as a table of run.toml, and checked.
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,9 +11,21 @@
 
 namespace espalier {
 
+/// What tells the file of a picture from others: its size and the FNV-1a hash of its bytes.
+struct FileContent {
+  std::int64_t bytes = 0;
+  std::string hash;  ///< 16 hexadecimal digits
+
+  bool operator==(const FileContent&) const = default;
+};
+
 struct ViewRecord {
-  std::filesystem::path picture;
+  std::filesystem::path picture;  ///< as it was given; what is fitted has its name from it
   View view;
+  std::optional<FileContent> content = {};  ///< once a run keeps the picture
+  std::filesystem::path copy = {};          ///< read instead of `picture`, not recorded; empty: none
+
+  const std::filesystem::path& file() const { return copy.empty() ? picture : copy; }
 };
 
 /// "FILE", "FILE:azimuth,elevation" or "FILE:azimuth,elevation,field of view" (degrees; with the

@@ -4,6 +4,7 @@
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
 #include <espalier/fitting/run/run_directory.h>
+#include <espalier/fitting/run/run_pictures.h>
 #include <espalier/fitting/run/run_summary.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/image/reading/frame.h>
@@ -184,6 +185,7 @@ void begin_run_directory(const fs::path& directory, const RunState& state) {
   if (error)
     throw_input_error("{}: got '{}', expected a directory that can be made", directory.string(),
                       error.message());
+  keep_pictures(state.record, directory);
   write_file_atomically(directory / "run.toml", record_to_toml(state.record, std::nullopt));
   for (std::size_t i = 0; i < state.task.views.size(); ++i)
     write_mask_png(numbered(directory, "target", i), state.task.views[i].target.mask());

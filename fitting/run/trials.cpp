@@ -6,6 +6,7 @@
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
 #include <espalier/fitting/run/fit_run.h>
+#include <espalier/fitting/run/run_pictures.h>
 #include <espalier/fitting/run/trials.h>
 #include <espalier/fitting/task/record_task.h>
 
@@ -45,9 +46,11 @@ void count_trial(FitStage stage, TrialCounts& counts) {
 }  // namespace
 
 void replay_trials(const fs::path& run, const std::function<void(const ParameterTable&)>& begin,
-                   const std::function<void(const Trial&)>& on_trial) {
+                   const std::function<void(const Trial&)>& on_trial,
+                   const std::vector<std::string>& pictures) {
   const std::vector<LoggedEvaluation> logged = logged_in(run);
   FitRecord record = read_record(run / "run.toml").record;
+  find_pictures(record, run, pictures);
   record.budget.target_fitness = 0;  // a log may go on beyond what a resumed run was told to stop at
   FitTask task = make_task(record, nullptr);
   const FitExecution execution{};
@@ -65,7 +68,7 @@ void replay_trials(const fs::path& run, const std::function<void(const Parameter
   FitRun(record, task, plan, run, execution, {logged, on_batch}).replay(space_of(record, *task.model));
 }
 
-TrialCounts write_trials(const fs::path& run, const fs::path& csv) {
+TrialCounts write_trials(const fs::path& run, const fs::path& csv, const std::vector<std::string>& pictures) {
   TrialCounts counts;
   write_file_atomically(csv, [&](const TakeBytes& take) {
     replay_trials(
@@ -73,7 +76,8 @@ TrialCounts write_trials(const fs::path& run, const fs::path& csv) {
         [&](const Trial& trial) {
           take(line_of(trial));
           count_trial(trial.stage, counts);
-        });
+        },
+        pictures);
   });
   return counts;
 }

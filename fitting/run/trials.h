@@ -5,6 +5,7 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,15 +24,18 @@ struct Trial {
 
 /// In the order in which they were made; `begin` is told the table of the model first. The run may still go
 /// on. Throws InputError where the directory holds no run or no evaluation, its pictures are gone, or its
-/// points are not those that were evaluated: made with other presets or another program.
+/// points are not those that were evaluated: made with other presets or another program. pictures: where
+/// those of the run are now, one a view; none: where the run finds them itself [run_pictures.h].
 void replay_trials(const std::filesystem::path& run, const std::function<void(const ParameterTable&)>& begin,
-                   const std::function<void(const Trial&)>& on_trial);
+                   const std::function<void(const Trial&)>& on_trial,
+                   const std::vector<std::string>& pictures = {});
 
 /// How many trials each stage has.
 using TrialCounts = std::vector<std::pair<FitStage, long>>;
 
 /// Writes them as CSV: evaluation, stage, value, seconds and the parameters by their names, choices as
 /// numbers, all in the shortest decimals that read back to the same bits.
-TrialCounts write_trials(const std::filesystem::path& run, const std::filesystem::path& csv);
+TrialCounts write_trials(const std::filesystem::path& run, const std::filesystem::path& csv,
+                         const std::vector<std::string>& pictures = {});
 
 }  // namespace espalier

@@ -32,7 +32,7 @@ void expect_leaves(const FitRecord& record, TreeKind seen, TargetView& view) {
 void read_views(FitRecord& record, FitTask& task) {
   std::uint64_t hash = 0xcbf29ce484222325ull;
   for (const ViewRecord& view : record.views) {
-    const TargetPicture target = read_target(view.picture, record.target);
+    const TargetPicture target = read_target(view.file(), record.target);
     hash = hash_target(target, hash);
     for (const std::string& fault : describe(target.faults, record.target.one_tree))
       task.warnings.push_back(fmt::format("{}: {}", view.picture.string(), fault));
@@ -45,8 +45,11 @@ void read_views(FitRecord& record, FitTask& task) {
   }
   const std::string hash_text = fmt::format("{:016x}", hash);
   if (!record.target_hash.empty() && record.target_hash != hash_text)
-    throw_input_error("{}: got another picture than the run was begun with (hash {}, expected {})",
-                      record.views.front().picture.string(), hash_text, record.target_hash);
+    throw_input_error(
+        "{}: got {} than the run was begun with (hash {}, expected {})", record.views.front().file().string(),
+        record.views.front().content ? "the same picture, read by this version of the program as another mask"
+                                     : "another picture",
+        hash_text, record.target_hash);
   record.target_hash = hash_text;
 }
 

@@ -46,6 +46,7 @@ DIGESTS = ["fitted", "drawn"]
 VARYING_KEYS = {"seconds", "evaluations_per_second", "embree_disagreement_pixels"}
 LATER_KEYS = {"plant", "labels", "resembles"}  # of summary.json, in no run when these were recorded; nor was tree.png, nor a preset's seed
 LATER_FILES = {"tree.png"}
+LATER_STEM = "picture"  # copies of what was fitted: picture.png, picture_2.jpg
 HEX_DIGITS = 16
 
 
@@ -159,10 +160,14 @@ def kind_of(path):
     raise ValueError(f"{path.name}: got a file that no digest knows, expected one of CONTENTS")
 
 
+def is_compared(path):
+    return path.is_file() and path.name not in LATER_FILES and path.stem.split("_")[0] != LATER_STEM
+
+
 def digests_of(directory):
     """Both digests of a run directory: of all its files, in the order of their names."""
     hashes = {name: hashlib.sha256() for name in DIGESTS}
-    for path in sorted(path for path in directory.rglob("*") if path.is_file() and path.name not in LATER_FILES):
+    for path in sorted(path for path in directory.rglob("*") if is_compared(path)):
         digest, content = kind_of(path)
         part = hashlib.sha256(content(path)).hexdigest()
         hashes[digest].update(f"{path.relative_to(directory)} {part}\n".encode())

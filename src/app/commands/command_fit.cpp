@@ -7,16 +7,19 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <espalier/app/commands/commands.h>
 #include <espalier/app/options/long_work.h>
 #include <espalier/app/options/option_names.h>
 #include <espalier/app/options/record_options.h>
+#include <espalier/app/options/run_options.h>
 #include <espalier/app/version.h>
 #include <espalier/core/data_path.h>
 #include <espalier/core/field_error.h>
 #include <espalier/fitting/run/fit.h>
 #include <espalier/fitting/run/full_size.h>
+#include <espalier/fitting/run/run_pictures.h>
 #include <espalier/fitting/starts/roomy_budget.h>
 #include <espalier/models/models.h>
 
@@ -31,6 +34,7 @@ constexpr const char* kDefaultPicture = "targets/fir.png";
 struct FitArguments {
   RecordWords words;
   std::string image, out, resume, repeat;
+  std::vector<std::string> pictures;  ///< of the run to resume or repeat
   int threads = 0;
   bool quiet = false;
 };
@@ -99,6 +103,7 @@ FitRecord resumed_record(const FitArguments& arguments) {
   const RecordWords& words = arguments.words;
   check_run_directory(arguments.resume);
   FitRecord record = read_record(fs::path(arguments.resume) / "run.toml").record;
+  find_pictures(record, arguments.resume, arguments.pictures);
   if (words.has("budget.evaluations") || words.has("budget.seconds"))
     record.budget.evaluations = 0, record.budget.seconds = 0;
   apply_words(words, record);
@@ -106,9 +111,10 @@ FitRecord resumed_record(const FitArguments& arguments) {
 }
 
 /// The record of a run, to be repeated for as many evaluations as that run made.
-FitRecord repeated_record(const std::string& directory) {
-  check_run_directory(directory);
-  auto [record, outcome] = read_record(fs::path(directory) / "run.toml");
+FitRecord repeated_record(const FitArguments& arguments) {
+  check_run_directory(arguments.repeat);
+  auto [record, outcome] = read_record(fs::path(arguments.repeat) / "run.toml");
+  find_pictures(record, arguments.repeat, arguments.pictures);
   if (outcome)
     record.budget = {.evaluations = outcome->evaluations,
                      .seconds = 0,
@@ -155,6 +161,8 @@ void print_result(const FitResult& result, const FitRecord& record, const fs::pa
 }
 
 void run_fit(const FitArguments& arguments) {
+  if (!arguments.pictures.empty() && arguments.resume.empty() && arguments.repeat.empty())
+    throw_input_error("--picture: got neither --resume nor --repeat, expected the run whose picture it is");
   ProgressLine line(arguments.quiet, 5);
   FitExecution options;
   options.threads = arguments.threads;
@@ -166,7 +174,7 @@ void run_fit(const FitArguments& arguments) {
   if (!arguments.quiet)
     options.on_warning = [](const std::string& text) { fmt::print(stderr, "espalier: warning: {}\n", text); };
   FitRecord record = options.resume              ? resumed_record(arguments)
-                     : !arguments.repeat.empty() ? repeated_record(arguments.repeat)
+                     : !arguments.repeat.empty() ? repeated_record(arguments)
                                                  : new_record(arguments);
   record.versions = recorded_versions();
   const fs::path directory = options.resume          ? fs::path(arguments.resume)
@@ -191,6 +199,7 @@ void add_run_options(CLI::App& command, FitArguments& arguments) {
       command.add_option("--resume", arguments.resume, "go on with the run in this directory")->excludes(out);
   CLI::Option* repeat =
       command.add_option("--repeat", arguments.repeat, "repeat the run in this directory")->excludes(resume);
+  add_picture_option(command, arguments.pictures);
   for (CLI::Option* option : {resume, repeat}) option->excludes(command.get_option("image"));
   exclude_record_options(command, *resume, *repeat);
 }

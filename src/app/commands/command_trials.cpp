@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <espalier/app/commands/commands.h>
+#include <espalier/app/options/run_options.h>
 #include <espalier/fitting/run/run_directory.h>
 #include <espalier/fitting/run/trials.h>
 
@@ -16,6 +18,7 @@ namespace {
 
 struct TrialsOptions {
   std::string run, output;
+  std::vector<std::string> pictures;
 };
 
 void run_trials(const TrialsOptions& options) {
@@ -24,7 +27,7 @@ void run_trials(const TrialsOptions& options) {
       options.output.empty() ? (std::filesystem::path(options.run) / "trials.csv").string() : options.output;
   std::string stages;
   long trials = 0;
-  for (const auto& [stage, count] : write_trials(options.run, output)) {
+  for (const auto& [stage, count] : write_trials(options.run, output, options.pictures)) {
     stages += fmt::format("{}{} {}", stages.empty() ? "" : ", ", name_of(stage), count);
     trials += count;
   }
@@ -39,6 +42,7 @@ void add_trials_command(CLI::App& app) {
   const auto options = std::make_shared<TrialsOptions>();
   command->add_option("run", options->run, "the directory of a run, finished or not")->required();
   command->add_option("-o,--output", options->output, "the table to write (default: trials.csv in the run)");
+  add_picture_option(*command, options->pictures);
   command->callback([options] { run_trials(*options); });
 }
 

@@ -249,18 +249,5 @@ TEST(FitCommand, RefusesToResumeWhatIsNoRun) {
   expect_error("--repeat /nowhere/at/all", "/nowhere");
 }
 
-TEST(FitCommand, RefusesToResumeWithAnotherPicture) {
-  const fs::path folder = fresh_folder("changed");
-  const fs::path picture = folder / "tree.png";
-  fs::copy_file(ESPALIER_SOURCE_DIR "/targets/oc_palm.png", picture);
-  const std::string run = (folder / "run").string();
-  ASSERT_EQ(run_espalier("fit " + picture.string() +
-                         " --size 32 --start palm --evaluations 5 --branch-rounds 0 --quiet --out " + run)
-                .exit_code,
-            0);
-  fs::copy_file(ESPALIER_SOURCE_DIR "/targets/oc_cypress.png", picture, fs::copy_options::overwrite_existing);
-  expect_error("--resume " + run, "another picture");
-}
-
 }  // namespace
 }  // namespace espalier

@@ -65,9 +65,9 @@ TEST(Fit, LeavesEveryFileOfARun) {
   fit(small_record(40), run);
   for (const char* name :
        {"run.toml", "trace.csv", "best.toml", "target.png", "best.png", "overlay.png", "convergence.svg",
-        "convergence.png", "summary.json", "evaluations.bin", "archive", "tree.png"})
+        "convergence.png", "summary.json", "evaluations.bin", "archive", "tree.png", "picture.png"})
     EXPECT_TRUE(fs::exists(run / name)) << name;
-  EXPECT_EQ(std::distance(fs::directory_iterator(run), {}), 12) << "no temporary file is left";
+  EXPECT_EQ(std::distance(fs::directory_iterator(run), {}), 13) << "no temporary file is left";
 }
 
 TEST(Fit, SummarySaysWhatWasDone) {
@@ -267,8 +267,11 @@ TEST(Fit, RefusesToResumeWhatIsNoRunOrHasAnotherTarget) {
   const fs::path run = new_run("changed");
   fit(small_record(10), run);
   FitRecord record = read_record(run / "run.toml").record;
-  record.views[0].picture = fs::path(ESPALIER_SOURCE_DIR) / "targets/fir.png";
-  EXPECT_THAT(error_of_fit(record, run, options), HasSubstr("another picture"));
+  record.views[0].copy = fs::path(ESPALIER_SOURCE_DIR) / "targets/fir.png";
+  EXPECT_THAT(error_of_fit(record, run, options), HasSubstr("expected the picture of the run"));
+  record.views[0].content.reset();
+  EXPECT_THAT(error_of_fit(record, run, options),
+              HasSubstr("got another picture than the run was begun with"));
 }
 
 }  // namespace

@@ -1,0 +1,148 @@
+// Runs that were moved, and whose pictures are gone: they go on, and are repeated, from what is in their
+// directory. Those of earlier versions, which hold no picture, are told where theirs is.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "support/run_espalier.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const fs::path kMovedTargets = ESPALIER_SOURCE_DIR "/targets";
+
+/// For a command line.
+std::string bundled_target(const std::string& name) {
+  return fmt::format("'{}'", (kMovedTargets / name).string());
+}
+
+void copy_target(const std::string& name, const fs::path& to) {
+  fs::copy_file(kMovedTargets / name, to, fs::copy_options::overwrite_existing);
+}
+
+/// The arguments of a small fit of `picture`.
+std::string small_fit_of(const fs::path& picture, const fs::path& run, int evaluations) {
+  return fmt::format(
+      "fit '{}' --size 32 --start palm --max-stems 300 --max-leaves 3000 --quiet --evaluations {} "
+      "--branch-rounds 1 --train-to-target --out '{}'",
+      picture.string(), evaluations, run.string());
+}
+
+void expect_it_works(const std::string& arguments) {
+  const ProgramRun run = run_espalier(arguments);
+  EXPECT_EQ(run.exit_code, 0) << arguments << "\n" << run.err;
+}
+
+void expect_it_refuses(const std::string& arguments, const std::string& words) {
+  const ProgramRun run = run_espalier(arguments);
+  expect_one_clear_error(run);
+  EXPECT_THAT(run.err, HasSubstr(words)) << arguments;
+}
+
+void expect_same_files(const fs::path& run, const fs::path& other) {
+  for (const char* name :
+       {"best.toml", "best.png", "tree.png", "outline.png", "overlay_full_size.png", "archive/1.toml"}) {
+    ASSERT_TRUE(fs::exists(run / name)) << name;
+    EXPECT_TRUE(read_text_file(run / name) == read_text_file(other / name)) << name;
+  }
+}
+
+/// A run of 15 evaluations that was moved, and whose picture was deleted; beside it one of 40 of the same
+/// picture.
+struct MovedRun : testing::Test {
+  static void SetUpTestSuite() {
+    folder = fresh_folder("moved_run");
+    copy_target("oc_palm.png", folder / "tree.png");
+    expect_it_works(small_fit_of(folder / "tree.png", folder / "whole", 40));
+    expect_it_works(small_fit_of(folder / "tree.png", folder / "run", 15));
+    fs::create_directory(folder / "elsewhere");
+    fs::rename(folder / "run", folder / "elsewhere/short");
+    fs::remove(folder / "tree.png");
+  }
+  /// A copy of the short run for a test of its own.
+  static fs::path short_run(const std::string& name) {
+    const fs::path run = folder / name;
+    fs::copy(folder / "elsewhere/short", run, fs::copy_options::recursive);
+    return run;
+  }
+
+  static inline fs::path folder;
+};
+
+TEST_F(MovedRun, GoesOnToTheSameBits) {
+  const fs::path run = short_run("resumed");
+  expect_it_works("fit --quiet --evaluations 40 --resume '" + run.string() + "'");
+  expect_same_files(run, folder / "whole");
+}
+
+TEST_F(MovedRun, IsRepeatedToTheSameBitsAndTheRepetitionIsComplete) {
+  const fs::path run = short_run("origin"), again = folder / "again", third = folder / "third";
+  expect_it_works("fit --quiet --repeat '" + run.string() + "' --out '" + again.string() + "'");
+  expect_same_files(run, again);
+  fs::rename(run, folder / "origin_moved");
+  expect_it_works("fit --quiet --repeat '" + again.string() + "' --out '" + third.string() + "'");
+  expect_same_files(again, third);
+}
+
+TEST_F(MovedRun, HasItsTrials) { expect_it_works("trials '" + short_run("trials").string() + "'"); }
+
+TEST_F(MovedRun, IgnoresAnotherPictureWhereItsOwnWas) {
+  const fs::path run = short_run("beside_another");
+  copy_target("oc_cypress.png", folder / "tree.png");
+  expect_it_works("fit --quiet --evaluations 40 --resume '" + run.string() + "'");
+  expect_same_files(run, folder / "whole");
+  fs::remove(folder / "tree.png");
+}
+
+TEST_F(MovedRun, RefusesAnotherPicture) {
+  const fs::path run = short_run("other_given");
+  const std::string before = read_text_file(run / "run.toml");
+  const std::string other = (kMovedTargets / "oc_cypress.png").string(),
+                    palm = (kMovedTargets / "oc_palm.png").string();
+  for (const char* verb : {"--resume", "--repeat"}) {
+    const std::string run_of = fmt::format("fit {} '{}' ", verb, run.string());
+    expect_it_refuses(run_of + "--picture " + other, "oc_cypress.png' of 1931 bytes (hash ");
+    expect_it_refuses(run_of + "--picture " + other, "expected the picture of the run, of 3538 bytes");
+    expect_it_refuses(run_of + "--picture /nowhere.png",
+                      "--picture: got '/nowhere.png', expected a picture's");
+    expect_it_refuses(run_of + fmt::format("--picture {} --picture {}", palm, palm),
+                      "got 2 pictures, expected 1");
+  }
+  EXPECT_EQ(read_text_file(run / "run.toml"), before);
+}
+
+TEST_F(MovedRun, WhoseCopyWasSpoiledSaysWhatItHas) {
+  const fs::path run = short_run("spoiled_copy");
+  copy_target("oc_cypress.png", run / "picture.png");
+  const std::string resume = "fit --quiet --evaluations 40 --resume '" + run.string() + "'";
+  expect_it_refuses(resume, "picture.png' is another picture, ");
+  expect_it_refuses(resume, "tree.png' is not there: expected the picture of the run in ");
+  expect_it_works(resume + " --picture " + bundled_target("oc_palm.png"));
+  expect_same_files(run, folder / "whole");
+  EXPECT_EQ(read_text_file(run / "picture.png"), read_text_file(kMovedTargets / "oc_palm.png"));
+}
+
+TEST(RunOfVersion01, IsToldWhereItsPictureIsAndKeepsIt) {
+  const fs::path run = fresh_folder("old_run") / "finished";
+  fs::copy(ESPALIER_SOURCE_DIR "/tests/recorded_fits/runs/finished", run);
+  const std::string resume = "fit --quiet --evaluations 310 --resume '" + run.string() + "'";
+  expect_it_refuses(resume,
+                    "--picture: got none, and 'fir.png' is not there: expected the picture of the run");
+  expect_it_refuses(resume + " --picture " + bundled_target("oc_palm.png"), "got another picture than");
+  EXPECT_FALSE(fs::exists(run / "picture.png"));
+  expect_it_works(resume + " --picture " + bundled_target("fir.png"));
+  EXPECT_TRUE(read_text_file(run / "picture.png") == read_text_file(kMovedTargets / "fir.png"));
+  expect_it_works("fit --quiet --evaluations 320 --resume '" + run.string() + "'");
+}
+
+TEST(Picture, IsOfARunThatIsReadAgain) {
+  expect_it_refuses("fit " + bundled_target("oc_palm.png") + " --picture a.png",
+                    "--picture: got neither --resume nor --repeat");
+}
+
+}  // namespace
+}  // namespace espalier
