@@ -91,7 +91,7 @@ void add_full_size(const FinishedFit& fit, const fs::path& run, AllScores& all) 
 
 /// The closed and filled outline of the target against the target.
 MaskMetrics outline_alone(const fs::path& run) {
-  const TargetOptions written{.method = SeparationMethod::luminance, .side = TreeSide::light};
+  const TargetOptions written{.separation = {.method = SeparationMethod::luminance, .side = TreeSide::light}};
   const PreparedTarget target(read_mask(run / "target.png", written).mask);
   return compare_masks(target.outline(), target);
 }

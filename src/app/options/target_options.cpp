@@ -12,7 +12,8 @@ std::shared_ptr<TargetOptions> add_target_options(CLI::App& command) {
       .add_option_function<std::string>(
           "--method",
           [options](const std::string& text) {
-            options->method = in_field("method", [&] { return parse_name<SeparationMethod>(text); });
+            options->separation.method =
+                in_field("method", [&] { return parse_name<SeparationMethod>(text); });
           },
           "what tells the tree from the background: auto, alpha, luminance, background")
       ->default_str("auto");
@@ -20,7 +21,7 @@ std::shared_ptr<TargetOptions> add_target_options(CLI::App& command) {
       .add_option_function<std::string>(
           "--side",
           [options](const std::string& text) {
-            options->side = in_field("side", [&] { return parse_name<TreeSide>(text); });
+            options->separation.side = in_field("side", [&] { return parse_name<TreeSide>(text); });
           },
           "which side of the threshold is the tree: auto, light (opaque), dark (transparent)")
       ->default_str("auto");

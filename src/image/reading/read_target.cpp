@@ -2,7 +2,7 @@
 #include <espalier/image/pictures/decode.h>
 #include <espalier/image/reading/clean.h>
 #include <espalier/image/reading/read_target.h>
-#include <espalier/image/reading/separate_tree.h>
+#include <espalier/image/separation/separate_tree.h>
 
 namespace espalier {
 
@@ -42,7 +42,7 @@ void clean(Separation& separation, const TargetOptions& options) {
 
 /// The picture's tree alone: separated, in the picture's own size and place.
 Separation separate(const DecodedPicture& picture, const TargetOptions& options, const std::string& name) {
-  Separation separation = separate_tree(picture, options.method, options.side, name);
+  Separation separation = separate_tree(picture, options.separation, name);
   check_shows_a_tree(separation.mask, name, separation.how);
   return separation;
 }
@@ -92,6 +92,8 @@ TargetPicture read_target(const fs::path& path, const TargetOptions& options) {
   tell_source(picture, target);
   target.how = fmt::format("{}; {}", separation.how, target.how);
   target.faults = faults;
+  target.confidence = separation.confidence;
+  target.warnings = std::move(separation.warnings);
   if (options.labels == LabelChoice::automatic)
     target.labels = framed_labels(picture, separation.mask, target.mask);
   return target;

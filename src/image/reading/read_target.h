@@ -4,35 +4,16 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <espalier/core/names.h>
 #include <espalier/image/masks/mask.h>
 #include <espalier/image/reading/frame.h>
 #include <espalier/image/reading/picture_faults.h>
 #include <espalier/image/reading/plant_labels.h>
+#include <espalier/image/separation/separation_options.h>
 
 namespace espalier {
-
-/// How the tree is told from the background. automatic: alpha where it carries information; else
-/// luminance (Otsu's threshold) where the picture has two tones; else the colour that most of the border
-/// has, where it has one; else luminance.
-enum class SeparationMethod { automatic, alpha, luminance, background };
-
-template <>
-inline constexpr auto kNames<SeparationMethod> =
-    std::to_array<Name<SeparationMethod>>({{SeparationMethod::automatic, "auto"},
-                                           {SeparationMethod::alpha, "alpha"},
-                                           {SeparationMethod::luminance, "luminance"},
-                                           {SeparationMethod::background, "background"}});
-
-/// Which side of the threshold is the tree. automatic: the one the border does not show.
-/// For alpha, light is the opaque side; for background, light is what differs from the border.
-enum class TreeSide { automatic, light, dark };
-
-template <>
-inline constexpr auto kNames<TreeSide> = std::to_array<Name<TreeSide>>({{TreeSide::automatic, "auto"},
-                                                                        {TreeSide::light, "light"},
-                                                                        {TreeSide::dark, "dark"}});
 
 /// Whether leaves and wood are told apart by their colours [plant_labels.h].
 enum class LabelChoice { automatic, none };
@@ -43,8 +24,7 @@ inline constexpr auto kNames<LabelChoice> =
 
 struct TargetOptions {
   int size_px = 256;  ///< side of the square frame, 16..4096
-  SeparationMethod method = SeparationMethod::automatic;
-  TreeSide side = TreeSide::automatic;
+  SeparationOptions separation;
   int speck_px = -1;           ///< pieces of the source smaller than this are dropped; -1: chosen by size
   bool fill_pinholes = false;  ///< fill holes smaller than speck_px
   bool one_tree = false;       ///< of several trees in a picture, the largest; else all as one
@@ -56,9 +36,11 @@ struct TargetPicture {
   float tree_height_px = 0;  ///< from the top of the tree to its base, in the frame
   float frame_px_per_source_px = 1;
   int source_width_px = 0, source_height_px = 0;
-  std::string how;       ///< one line: how the mask was made
-  PictureFaults faults;  ///< of the picture; only read_target looks for them
-  PlantLabels labels;    ///< of the mask's size and within it; only of read_target, where they are asked for
+  std::string how;                    ///< one line: how the mask was made
+  double confidence = 1;              ///< share of what stands out that is clearly tree or clearly ground
+  std::vector<std::string> warnings;  ///< of the separation, a line each
+  PictureFaults faults;               ///< of the picture; only read_target looks for them
+  PlantLabels labels;  ///< of the mask's size and within it; only of read_target, where they are asked for
 };
 
 /// Throws InputError (one line, naming the file) for what is no readable picture, claims more than

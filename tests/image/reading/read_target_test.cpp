@@ -157,8 +157,8 @@ TEST_F(ReadTarget, TheSideCanBeForced) {
   for (const float tree : {0.0f, 1.0f}) {
     write_samples(folder_ / "a.png", draw_tree(100, {tree}, {1 - tree}));
     TargetOptions light, dark;
-    light.side = TreeSide::light;
-    dark.side = TreeSide::dark;
+    light.separation.side = TreeSide::light;
+    dark.separation.side = TreeSide::dark;
     const Mask light_mask = read_mask(folder_ / "a.png", light).mask;
     EXPECT_EQ(light_mask == drawn_tree_mask(100), tree == 1.0f);
     EXPECT_EQ(area_px(light_mask) + area_px(read_mask(folder_ / "a.png", dark).mask), 100u * 100u);
@@ -177,7 +177,7 @@ TEST_F(ReadTarget, TheMethodCanBeForced) {
   write_samples(folder_ / "a.png", samples);
   const auto area_by = [&](SeparationMethod method) {
     TargetOptions options;
-    options.method = method;
+    options.separation.method = method;
     return area_px(read_mask(folder_ / "a.png", options).mask);
   };
   EXPECT_EQ(area_by(SeparationMethod::alpha), 9500u);
@@ -188,7 +188,7 @@ TEST_F(ReadTarget, TheMethodCanBeForced) {
 TEST_F(ReadTarget, AlphaThatIsNotThereIsRefused) {
   write_samples(folder_ / "a.png", draw_tree(100, {1}, {0}));
   TargetOptions options;
-  options.method = SeparationMethod::alpha;
+  options.separation.method = SeparationMethod::alpha;
   EXPECT_THROW(read_mask(folder_ / "a.png", options), InputError);
 }
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <espalier/image/reading/separate_tree.h>
+#include <espalier/image/separation/by_luminance.h>
 
 namespace espalier {
 namespace {
