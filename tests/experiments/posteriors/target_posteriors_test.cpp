@@ -8,7 +8,9 @@
 
 #include <espalier/core/files.h>
 #include <espalier/experiments/posteriors/target_posteriors.h>
+#include <espalier/models/models.h>
 
+#include "support/posterior_table.h"
 #include "support/small_training.h"
 #include "support/temporary_folders.h"
 
@@ -38,6 +40,9 @@ TargetPosteriorOptions small_options(std::size_t stop_at = 1'000'000) {
 
 TEST(TargetPosteriors, LeaveATableWithTheTruthWhereItIsKnown) {
   const fs::path folder = fresh_folder("target_posteriors");
+  fs::create_directories(folder / "posteriors");
+  take_kept_table(PlantPrior(model_by_name("weber_penn")), kLeastTableSize - 300,
+                  folder / "posteriors/plants_10.bin");
   write_target_posteriors(folder, two_targets(), small_options(1000));
   EXPECT_FALSE(fs::exists(folder / "posteriors.csv")) << "it was stopped";
   EXPECT_TRUE(fs::exists(folder / "posteriors/plants_10.bin"));

@@ -12,6 +12,7 @@
 #include <espalier/fitting/posterior/simulations/reference_table.h>
 #include <espalier/models/models.h>
 
+#include "support/posterior_table.h"
 #include "support/prior_silhouettes.h"
 #include "support/small_training.h"
 #include "support/temporary_folders.h"
@@ -22,9 +23,18 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
+const PlantPrior& prior() {
+  static const PlantPrior made(model_by_name("weber_penn"));
+  return made;
+}
+
 /// A table that all tests share.
 fs::path shared_table() {
-  static const fs::path path = fresh_folder("posterior_table") / "table.bin";
+  static const fs::path path = [] {
+    const fs::path file = fresh_folder("posterior_table") / "table.bin";
+    take_kept_table(prior(), kLeastTableSize, file);
+    return file;
+  }();
   return path;
 }
 
@@ -60,15 +70,10 @@ struct WholeRun {
   PosteriorResult result = compute_posterior(small_request(), tree_of(1), folder, 1, always);
 };
 
-/// The run that makes the table.
+/// The run that makes the table where there is none.
 const WholeRun& whole_run() {
   static const WholeRun run;
   return run;
-}
-
-const PlantPrior& prior() {
-  static const PlantPrior made(model_by_name("weber_penn"));
-  return made;
 }
 
 /// The table of the whole run, or of others of its seed and height.
@@ -99,16 +104,6 @@ TEST(PosteriorRun, LeavesSamplesIntervalsAndPictures) {
   for (const SpeciesShare& species : result.species) all += species.share;
   EXPECT_NEAR(all, 1, 1e-9);
   EXPECT_THAT(posterior_in_words(result), HasSubstr("crown_volume"));
-}
-
-ReferenceTable first_rows(const ReferenceTable& table, std::size_t rows) {
-  const auto count = static_cast<Eigen::Index>(rows);
-  return {.seed = table.seed,
-          .height_m = table.height_m,
-          .unknowns = table.unknowns.topRows(count),
-          .summaries = table.summaries.topRows(count),
-          .species = {table.species.begin(), table.species.begin() + count},
-          .attempt = {table.attempt.begin(), table.attempt.begin() + count}};
 }
 
 bool are_equal(const ReferenceTable& a, const ReferenceTable& b) {
