@@ -3,7 +3,7 @@
 // number of a curve: the truth, the posterior's median and 90 % interval, and how much narrower it is than
 // the prior's. recovery.csv says by species how far medians are from the truth where the posterior is narrow
 // (determined, docs/posterior.md), and how often; SPECIES.svg shows the first tree's curves.
-//   build/bin/curve_recovery DIR [--species quaking_aspen …] [--free 'length_along[1]~4' …] [--truths 1]
+//   build/bin/curve_recovery DIR --species quaking_aspen … --free 'length_along[1]~4' … [--truths 1]
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -29,8 +29,7 @@ namespace fs = std::filesystem;
 
 struct RecoveryOptions {
   fs::path directory;
-  std::vector<std::string> species{"quaking_aspen", "black_tupelo", "european_larch", "small_pine", "apple"};
-  std::vector<std::string> free{"length_along[1]~4", "density_along[1]~4", "radius_along[0]~4"};
+  std::vector<std::string> species, free;
   std::size_t truths = 1, simulations = 8000;
   Seed seed = 1;
   double height_m = 10;
@@ -169,8 +168,8 @@ int run(int argc, char** argv) {
   RecoveryOptions options;
   CLI::App app("Curves of trees drawn at random, found again from their silhouettes");
   app.add_option("directory", options.directory)->required();
-  app.add_option("--species", options.species, "a tree of each");
-  app.add_option("--free", options.free, "curves that are unknown");
+  app.add_option("--species", options.species, "trees of each")->required();
+  app.add_option("--free", options.free, "curves that are unknown")->required();
   app.add_option("--truths", options.truths, "trees of each species")->check(CLI::Range(1, 10'000));
   app.add_option("--simulations", options.simulations);
   app.add_option("--seed", options.seed);

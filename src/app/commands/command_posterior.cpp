@@ -108,8 +108,7 @@ void add_posterior_command(CLI::App& app) {
   command
       ->add_option(
           "--free", request.prior.free,
-          "what is unknown of it, as fit takes it, curves too: 'default,length_along[1]~4' (default: what "
-          "fits are free to change)")
+          "parameters that are unknown: a,b[1],curve~4,default (default: what fits are free to change)")
       ->delimiter(',');
   command->add_option("--seed", request.seed, "of the plants of the prior")->capture_default_str();
   command->add_option("--threads", options->threads, "0: one per processor; changes the speed only")
