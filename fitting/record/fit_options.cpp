@@ -97,7 +97,7 @@ std::vector<FitOption> options_of_the_task() {
        .key = "seed",
        .option = "seed",
        .member = [](FitRecord& record) -> Seed& { return record.seed; },
-       .help = "of the search, and of the first tree",
+       .help = "seed of the search, and of the first tree",
        .experiment_list = "seeds"},
       {.field = "fit_seeds",
        .key = "fit_seeds",
@@ -110,7 +110,7 @@ std::vector<FitOption> options_of_the_task() {
        .key = "kind",
        .option = "kind",
        .member = [](FitRecord& record) -> KindChoice& { return record.kind; },
-       .help = "of tree: auto (read off the picture), any, leafy, leafless (never any leaves), palm",
+       .help = "kind of tree: auto (read off the picture), any, leafy, leafless (never any leaves), palm",
        .before = name_of(KindChoice::any)},
       {.field = "train_to_target",
        .key = "train_to_target",
@@ -384,10 +384,21 @@ std::vector<FitOption> options_of_the_search() {
 }
 
 std::vector<FitOption> options_of_all() {
+  struct Part {
+    const char* group;
+    std::vector<FitOption> (*options)();
+  };
   std::vector<FitOption> options;
-  for (const auto part : {options_of_the_task, options_of_the_target, options_of_the_budget,
-                          options_of_the_start, options_of_the_plant, options_of_the_search})
-    for (FitOption& option : part()) options.push_back(std::move(option));
+  for (const Part& part :
+       {Part{"What is fitted, and how it is scored", options_of_the_task},
+        Part{"How the picture is read", options_of_the_target},
+        Part{"How long, and how large", options_of_the_budget},
+        Part{"Where it starts, and what it does", options_of_the_start},
+        Part{"What the tree may be", options_of_the_plant}, Part{"What is searched", options_of_the_search}})
+    for (FitOption& option : part.options()) {
+      option.group = part.group;
+      options.push_back(std::move(option));
+    }
   return options;
 }
 

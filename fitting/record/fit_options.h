@@ -43,6 +43,7 @@ struct FitOption {
   std::string_view field;        ///< of FitRecord, as C++ names it: "budget.seconds"
   std::string_view key;          ///< its path in run.toml: "search.fixed"
   std::string_view option = {};  ///< of `espalier fit`, without its dashes; empty where a user cannot say it
+  std::string_view group = {};   ///< under which its help stands
   OptionMember member;
   std::string_view unit = {};                      ///< "px", "m", "s"
   double lower = -kUnbounded, upper = kUnbounded;  ///< of numbers, both included

@@ -3,6 +3,7 @@
 #include <espalier/core/error.h>
 #include <espalier/core/parameter_table.h>
 #include <espalier/core/toml/toml_file.h>
+#include <espalier/lsystem/files/bundled.h>
 #include <espalier/models/preset.h>
 #include <espalier/models/preset_source.h>
 
@@ -37,6 +38,10 @@ PresetSource find_preset(const std::string& name_or_path, const fs::path& folder
   std::error_code ignored;
   if (looks_like_path(name_or_path) || fs::exists(folder / name_or_path, ignored))
     return file_source(name_or_path, folder);
+  for (const EmbeddedFile& file : embedded_lsystems())
+    if (file.name == name_or_path)
+      throw_input_error("got preset '{}', expected its ending: '{}.lsys' is a bundled L-system", name_or_path,
+                        name_or_path);
   throw_input_error("got preset '{}', expected a path or a bundled preset, the closest is '{}'", name_or_path,
                     closest_name(name_or_path, bundled_names()));
 }

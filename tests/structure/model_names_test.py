@@ -29,6 +29,7 @@ ALLOWED = {
     "src/overrides/branch_crown.cpp": {"shape"},                           # of an envelope
     "src/app/bench/bench_cases.cpp": {"quaking_aspen", "lombardy_poplar", "small_pine",
                                       "weeping_willow"},                   # what is measured
+    "src/app/main/examples.cpp": {"quaking_aspen", "small_pine"},          # what examples grow
     "src/app/bench/bench_scaling.cpp": {"quaking_aspen"},                  # what is measured
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 
 #include <espalier/app/commands/commands.h>
+#include <espalier/app/help_format.h>
+#include <espalier/app/options/json_output.h>
 #include <espalier/app/options/target_options.h>
 #include <espalier/image/measures/compare.h>
 #include <espalier/image/measures/metrics_json.h>
@@ -52,7 +54,7 @@ void print_json(const CompareOptions& options, const MaskPair& pair, const MaskM
                                  {"height_px", pair.target.mask.height_px()},
                                  {"framed", pair.framed}};
   json.update(nlohmann::ordered_json(metrics));
-  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  print_as_json(json);
 }
 
 void run_compare(const CompareOptions& options, const TargetOptions& reading) {
@@ -65,8 +67,10 @@ void run_compare(const CompareOptions& options, const TargetOptions& reading) {
 std::string help_of_measures() {
   std::string help = "Measures:\n";
   for (const Metric& metric : kMetrics)
-    help += fmt::format("  {:<19} {} ({} is better)\n", metric.name, metric.help,
-                        metric.better == Better::larger ? "larger" : "smaller");
+    help += in_columns(
+        fmt::format("  {}", metric.name),
+        fmt::format("{} ({} is better)", metric.help, metric.better == Better::larger ? "larger" : "smaller"),
+        23);
   return help;
 }
 

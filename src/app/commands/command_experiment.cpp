@@ -8,9 +8,11 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include <espalier/app/commands/commands.h>
+#include <espalier/app/options/json_output.h>
 #include <espalier/app/options/long_work.h>
 #include <espalier/app/version.h>
 #include <espalier/core/data_path.h>
@@ -44,7 +46,7 @@ struct RunArguments {
   std::string file, out;
   std::vector<std::string> settings;
   int jobs = 0;
-  bool quiet = false;
+  bool quiet = false, json = false;
 };
 
 std::string duration(double seconds) {
@@ -68,6 +70,24 @@ void print_outcome(const ExperimentOutcome& outcome, const fs::path& directory, 
   else
     fmt::print("{} runs in {} ({}); espalier experiment report {}\n", outcome.rows.size(),
                (directory / "results.csv").string(), duration(seconds), directory.string());
+}
+
+/// The counts of runs and the numbers of each that is done.
+nlohmann::ordered_json outcome_to_json(const ExperimentOutcome& outcome, const fs::path& directory,
+                                       double seconds) {
+  nlohmann::ordered_json json = {{"directory", directory.string()}, {"seconds", seconds}};
+  for (const char* status : {"done", "failed", "left"})
+    json[status] = std::count_if(outcome.rows.begin(), outcome.rows.end(),
+                                 [&](const RunRow& row) { return row.status == status; });
+  json["runs"] = nlohmann::ordered_json::array();
+  for (const RunRow& row : outcome.rows) {
+    nlohmann::ordered_json run = {{"run", row.run}, {"status", row.status}};
+    for (const Row* columns : {&row.labels, &row.measured.results})
+      for (const auto& [column, cell] : *columns) run[column] = cell;
+    if (!row.error.empty()) run["error"] = row.error;
+    json["runs"].push_back(run);
+  }
+  return json;
 }
 
 /// No result at all is a failure of the whole.
@@ -95,8 +115,11 @@ void run_runs(const RunArguments& arguments) {
   const auto began = Clock::now();
   const ExperimentOutcome outcome = run_experiment(experiment, directory, options);
   line.end();
-  if (!arguments.quiet)
-    print_outcome(outcome, directory, std::chrono::duration<double>(Clock::now() - began).count());
+  const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
+  if (arguments.json)
+    print_as_json(outcome_to_json(outcome, directory, seconds));
+  else if (!arguments.quiet)
+    print_outcome(outcome, directory, seconds);
   check_outcome(outcome, directory);
 }
 
@@ -172,7 +195,7 @@ void add_study_comparison(CLI::App& experiment) {
   const auto arguments = std::make_shared<CompareArguments>();
   command->add_option("first", arguments->first, "directory of an experiment: runs/NAME")->required();
   command->add_option("second", arguments->second, "that of another one")->required();
-  command->add_option("--out", arguments->out,
+  command->add_option("-o,--output", arguments->out,
                       "directory for compare.md and compare.csv (default: the table is printed)");
   command->callback([arguments] { compare_two(*arguments); });
 }
@@ -189,7 +212,7 @@ void add_study_export(CLI::App& experiment) {
   command->add_option("--format", arguments->format, "iohprofiler or coco")
       ->required()
       ->check(CLI::IsMember(export_formats()));
-  command->add_option("--out", arguments->out, "directory to make: a folder a method")->required();
+  command->add_option("-o,--output", arguments->out, "directory to make: a folder a method")->required();
   command->callback([arguments] {
     for (const fs::path& folder : export_study(arguments->directory, arguments->format, arguments->out))
       fmt::print("{}\n", folder.string());
@@ -200,7 +223,8 @@ void add_run_command(CLI::App& experiment) {
   CLI::App* command = experiment.add_subcommand("run", "Run what is left of an experiment");
   const auto arguments = std::make_shared<RunArguments>();
   command->add_option("file", arguments->file, "the experiment: a TOML file (see experiments/)")->required();
-  command->add_option("--out", arguments->out, "directory to make, or to go on in (default: runs/NAME)");
+  command->add_option("-o,--output", arguments->out,
+                      "directory to make, or to go on in (default: runs/NAME)");
   command
       ->add_option("--set", arguments->settings,
                    "replace keys of the experiment's [fits], [pictures] or [growth]: 'seconds=2' 'seeds=[1]'")
@@ -210,6 +234,7 @@ void add_run_command(CLI::App& experiment) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command->add_flag("--quiet", arguments->quiet, "print nothing but errors");
+  add_json_flag(*command, arguments->json);
   command->callback([arguments] { run_runs(*arguments); });
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <espalier/app/commands/commands.h>
+#include <espalier/app/options/json_output.h>
 #include <espalier/app/options/long_work.h>
 #include <espalier/app/options/option_names.h>
 #include <espalier/app/options/record_options.h>
@@ -36,7 +37,7 @@ struct FitArguments {
   std::string image, out, resume, repeat;
   std::vector<std::string> pictures;  ///< of the run to resume or repeat
   int threads = 0;
-  bool quiet = false;
+  bool quiet = false, json = false;
 };
 
 std::string progress_text(const FitProgress& progress) {
@@ -183,18 +184,23 @@ void run_fit(const FitArguments& arguments) {
   watch_for_interrupt();
   const FitResult result = fit(record, directory, options);
   line.end();
-  if (!arguments.quiet) print_result(result, record, directory);
+  if (arguments.json)
+    print_summary_json(directory, "summary.json");
+  else if (!arguments.quiet)
+    print_result(result, record, directory);
 }
 
 void add_run_options(CLI::App& command, FitArguments& arguments) {
+  command.option_defaults()->group("The run");
   CLI::Option* out = command.add_option(
-      "--out", arguments.out,
+      "-o,--output", arguments.out,
       "directory to make (default: runs/IMAGE-SEED); there, best.toml is the tree, archive/ holds others "
       "nearly as good");
   command.add_option("--threads", arguments.threads, "0: one per processor; changes the speed only")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command.add_flag("--quiet", arguments.quiet, "print nothing but errors");
+  add_json_flag(command, arguments.json);
   CLI::Option* resume =
       command.add_option("--resume", arguments.resume, "go on with the run in this directory")->excludes(out);
   CLI::Option* repeat =

@@ -3,11 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include <espalier/app/commands/commands.h>
 #include <espalier/app/growth_frames.h>
+#include <espalier/app/help_format.h>
+#include <espalier/app/options/json_output.h>
 #include <espalier/app/options/plant_options.h>
 #include <espalier/app/options/view_options.h>
 #include <espalier/core/assignment.h>
@@ -25,7 +28,7 @@ namespace {
 
 struct LsystemOptions {
   std::string file;
-  bool list = false;
+  bool list = false, json = false;
   std::optional<int> steps;
   Seed seed = 1;
   std::vector<std::string> assignments, volumes;
@@ -67,12 +70,10 @@ GrowthFrames frames_of(const LsystemOptions& options) {
 }
 
 void check_options(const LsystemOptions& options) {
-  if (options.file.empty())
-    throw_input_error("got no file, expected an .lsys file or the name of a bundled one (see --list)");
   if (options.print_string && options.frames)
     throw_input_error("got both --string and --frames, expected one of them");
   if (options.print_string == !options.output.empty())
-    throw_input_error("got {} --string and -o, expected one of them",
+    throw_input_error("got {} --string and --output, expected one of them: the string, or a picture to draw",
                       options.print_string ? "both" : "neither");
   if (options.steps && *options.steps < 0)
     throw_input_error("--steps {}: expected 0 or more", *options.steps);
@@ -82,7 +83,11 @@ void check_options(const LsystemOptions& options) {
   if (!options.frames) check_png_path(options.output);
 }
 
-void list_bundled() {
+void list_bundled(bool as_json) {
+  auto rows = nlohmann::ordered_json::array();
+  for (const std::string& name : lsystem::bundled_names())
+    rows.push_back({{"name", name}, {"description", lsystem::bundled_description(name)}});
+  if (as_json) return print_as_json(rows);
   for (const std::string& name : lsystem::bundled_names())
     fmt::print("{:<24} {}\n", name, lsystem::bundled_description(name));
 }
@@ -109,9 +114,13 @@ void note_errors_of_functions(const lsystem::Grammar& grammar) {
 }
 
 void run_lsystem(const LsystemOptions& options) {
-  if (options.list) return list_bundled();
-  check_options(options);
+  const bool asks_for_nothing = options.file.empty() && !options.print_string && options.output.empty();
+  if (options.list || asks_for_nothing) return list_bundled(options.json);
+  if (options.file.empty())
+    throw_input_error(
+        "got no file, expected an .lsys file or the name of a bundled one (see: espalier lsystem)");
   const lsystem::Grammar grammar = lsystem::load_grammar(options.file);
+  check_options(options);
   note_errors_of_functions(grammar);
   ParameterValues values = grammar.parameters.defaults();
   set_parameters(options.assignments, grammar.parameters, values);
@@ -136,18 +145,22 @@ void run_lsystem(const LsystemOptions& options) {
 std::string help_of_commands() {
   std::string help = "Symbols that the turtle knows:\n";
   for (const lsystem::CommandInfo& info : lsystem::kCommands)
-    help += fmt::format("  {:<2} {:<1}  {}\n", info.symbol, info.other_symbol, info.help);
+    help +=
+        in_columns(fmt::format("  {:<2} {:<1}", info.symbol, info.other_symbol), std::string(info.help), 8);
   return help;
 }
 
 }  // namespace
 
 void add_lsystem_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("lsystem", "Derive an L-system: print its string or draw it");
+  CLI::App* command =
+      app.add_subcommand("lsystem", "List the bundled L-systems, or derive one: print its string or draw it");
   command->footer(help_of_commands());
   const auto options = std::make_shared<LsystemOptions>();
   command->add_option("file", options->file, "an .lsys file, or the name of a bundled one");
-  command->add_flag("--list", options->list, "list the bundled L-systems, with what each is");
+  command->add_flag("--list", options->list,
+                    "list the bundled L-systems, with what each is, as without a file");
+  command->add_flag("--json", options->json, "list as JSON");
   command->add_option("--steps", options->steps, "derivation steps; else those the file says");
   command->add_option("--seed", options->seed, "seed of the random numbers")
       ->check(reject_negative)

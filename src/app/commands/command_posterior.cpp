@@ -8,6 +8,7 @@
 #include <string>
 
 #include <espalier/app/commands/commands.h>
+#include <espalier/app/options/json_output.h>
 #include <espalier/app/options/long_work.h>
 #include <espalier/app/options/target_options.h>
 #include <espalier/app/version.h>
@@ -26,7 +27,7 @@ struct PosteriorOptions {
   PosteriorRequest request;
   std::string out;
   int threads = 0;
-  bool quiet = false;
+  bool quiet = false, json = false;
 };
 
 /// runs/fir-posterior, or the directory that was named, which is new, empty or of a posterior.
@@ -40,7 +41,7 @@ fs::path directory_of(const PosteriorOptions& options) {
     return out;
   if (!fs::is_directory(out, ignored) || !fs::is_empty(out, ignored))
     throw_input_error(
-        "--out: got '{}', which holds other things, expected a new directory or one of a posterior",
+        "--output: got '{}', which holds other things, expected a new directory or one of a posterior",
         options.out);
   return out;
 }
@@ -81,7 +82,10 @@ void run_posterior(PosteriorOptions& options, const TargetOptions& reading) {
   const PosteriorResult posterior =
       compute_posterior(options.request, silhouette, directory, options.threads, progress);
   line.end();
-  if (!options.quiet) print_posterior(posterior, options.request, directory);
+  if (options.json && posterior.is_complete())
+    print_summary_json(directory, "posterior.json");
+  else if (!options.quiet)
+    print_posterior(posterior, options.request, directory);
 }
 
 }  // namespace
@@ -92,9 +96,9 @@ void add_posterior_command(CLI::App& app) {
   const auto options = std::make_shared<PosteriorOptions>();
   PosteriorRequest& request = options->request;
   command->add_option("image", request.picture, "the picture")->required();
-  command->add_option("--out", options->out,
+  command->add_option("-o,--output", options->out,
                       "directory to make or to go on with (default: runs/IMAGE-posterior)");
-  command->add_option("--height", request.height_m, "of the tree, in metres")->capture_default_str();
+  command->add_option("--height", request.height_m, "height of the tree, in metres")->capture_default_str();
   command->add_option("--simulations", request.simulations, "plants of the prior to compare the picture with")
       ->capture_default_str();
   command->add_option("--samples", request.samples, "rows of samples.csv")->capture_default_str();
@@ -110,11 +114,12 @@ void add_posterior_command(CLI::App& app) {
           "--free", request.prior.free,
           "parameters that are unknown: a,b[1],curve~4,default (default: what fits are free to change)")
       ->delimiter(',');
-  command->add_option("--seed", request.seed, "of the plants of the prior")->capture_default_str();
+  command->add_option("--seed", request.seed, "seed of the plants of the prior")->capture_default_str();
   command->add_option("--threads", options->threads, "0: one per processor; changes the speed only")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command->add_flag("--quiet", options->quiet, "print nothing but errors");
+  add_json_flag(*command, options->json);
   const auto reading = add_target_options(*command);
   reading->one_tree = true;
   command->callback([options, reading] { run_posterior(*options, *reading); });

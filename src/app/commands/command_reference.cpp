@@ -86,12 +86,6 @@ constexpr Topic kTopics[] = {
     {"optimizers", optimizers_as_markdown},
 };
 
-std::vector<std::string> topic_names() {
-  std::vector<std::string> names;
-  for (const Topic& topic : kTopics) names.emplace_back(topic.name);
-  return names;
-}
-
 void print_topic(const std::string& name) {
   for (const Topic& topic : kTopics)
     if (topic.name == name) fmt::print("{}", topic.markdown());
@@ -99,10 +93,16 @@ void print_topic(const std::string& name) {
 
 }  // namespace
 
+std::vector<std::string> reference_topics() {
+  std::vector<std::string> names;
+  for (const Topic& topic : kTopics) names.emplace_back(topic.name);
+  return names;
+}
+
 void add_reference_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("reference", "Print a table of the docs as Markdown");
   const auto topic = std::make_shared<std::string>();
-  command->add_option("topic", *topic, "which table")->required()->check(CLI::IsMember(topic_names()));
+  command->add_option("topic", *topic, "which table")->required()->check(CLI::IsMember(reference_topics()));
   command->callback([topic] { print_topic(*topic); });
 }
 

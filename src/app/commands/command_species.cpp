@@ -3,10 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include <espalier/app/commands/commands.h>
+#include <espalier/app/options/json_output.h>
 #include <espalier/models/grow_preset.h>
 #include <espalier/models/models.h>
 #include <espalier/overrides/overrides_tree.h>
@@ -18,6 +20,7 @@ namespace {
 struct SpeciesOptions {
   std::string preset;
   std::string file_to_check;
+  bool json = false;
 };
 
 /// "13 ± 3 m": the height of the tree, where the model has one.
@@ -35,10 +38,30 @@ void list_presets(const std::vector<std::string>& names) {
   }
 }
 
+nlohmann::ordered_json presets_to_json(const std::vector<std::string>& names, bool is_species) {
+  auto rows = nlohmann::ordered_json::array();
+  for (const std::string& name : names) {
+    const Preset preset = load_preset(name);
+    rows.push_back({{"name", name},
+                    {"is_species", is_species},
+                    {"model", preset.model},
+                    {"height", height_text(preset)},
+                    {"description", preset.description}});
+  }
+  return rows;
+}
+
+void print_species_json() {
+  nlohmann::ordered_json all = presets_to_json(bundled_presets(), true);
+  for (auto& design : presets_to_json(bundled_designs(), false)) all.push_back(std::move(design));
+  print_as_json(all);
+}
+
 void list_species() {
   list_presets(bundled_presets());
   fmt::print("\nDesigned branch by branch, and no species:\n");
   list_presets(bundled_designs());
+  fmt::print("\nL-systems are listed by espalier lsystem.\n");
 }
 
 void check_file(const std::string& file) {
@@ -64,6 +87,8 @@ void run_species(const SpeciesOptions& options) {
     check_file(options.file_to_check);
   else if (!options.preset.empty())
     print_preset(load_preset(options.preset));
+  else if (options.json)
+    print_species_json();
   else
     list_species();
 }
@@ -77,6 +102,7 @@ void add_species_command(CLI::App& app) {
   CLI::Option* preset = command->add_option("preset", options->preset, "a bundled preset or a TOML file");
   command->add_option("--check", options->file_to_check, "say whether this TOML file is a valid preset")
       ->excludes(preset);
+  command->add_flag("--json", options->json, "list as JSON")->excludes(preset);
   command->callback([options] { run_species(*options); });
 }
 

@@ -1,6 +1,8 @@
 // The subcommands of the program, one file each (command_<name>.cpp).
 // A command adds itself to the CLI::App and does its work in the subcommand's callback.
 #pragma once
+#include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -25,5 +27,8 @@ void add_posterior_command(CLI::App& app);
 void add_params_command(CLI::App& app);
 void add_reference_command(CLI::App& app);
 void add_completion_command(CLI::App& app);
+
+/// The tables that `espalier reference` prints.
+std::vector<std::string> reference_topics();
 
 }  // namespace espalier

@@ -5,10 +5,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include <espalier/app/commands/commands.h>
+#include <espalier/app/help_format.h>
+#include <espalier/app/main/examples.h>
+#include <espalier/app/main/old_names.h>
 #include <espalier/app/main/program.h>
+#include <espalier/app/main/wrong_words.h>
 #include <espalier/app/options/option_names.h>
 #include <espalier/app/version.h>
 #include <espalier/core/field_error.h>
@@ -23,39 +29,53 @@ void print_error(std::string message) {
   fmt::print(stderr, "espalier: {}\n", message);
 }
 
+/// Commands, in the order of the help.
+void add_commands(CLI::App& app) {
+  for (const auto& [group, commands] : std::vector<std::pair<const char*, std::vector<void (*)(CLI::App&)>>>{
+           {"Fit trees to pictures",
+            {add_fit_command, add_posterior_command, add_trials_command, add_target_command,
+             add_compare_command}},
+           {"Look at trees",
+            {add_species_command, add_lsystem_command, add_render_command, add_mesh_command, add_mask_command,
+             add_params_command}},
+           {"Between species", {add_space_command, add_blend_command}},
+           {"Study methods", {add_experiment_command, add_bench_command}},
+           {"About the program", {add_reference_command, add_completion_command}}})
+    for (const auto& add : commands) {
+      add(app);
+      app.get_subcommands({}).back()->group(group);
+    }
+}
+
+/// CLI11 takes words from the back.
+std::vector<std::string> reversed(std::vector<std::string> words) {
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
   CLI::App app{"Espalier fits tree models to pictures.", "espalier"};
   app.require_subcommand(1);
+  app.formatter(std::make_shared<HelpFormat>());
   app.set_version_flag("--version", version_text, "Print the version, the commit and the libraries");
-  // Commands, in the order of the help.
-  add_fit_command(app);
-  add_trials_command(app);
-  add_target_command(app);
-  add_compare_command(app);
-  add_mask_command(app);
-  add_render_command(app);
-  add_mesh_command(app);
-  add_bench_command(app);
-  add_experiment_command(app);
-  add_species_command(app);
-  add_lsystem_command(app);
-  add_space_command(app);
-  add_blend_command(app);
-  add_posterior_command(app);
-  add_params_command(app);
-  add_reference_command(app);
-  add_completion_command(app);
+  add_commands(app);
+  add_examples(app);
+  const std::vector<std::string> words = with_names_of_today({argv + std::min(argc, 1), argv + argc});
   try {
-    app.parse(argc, argv);
+    app.parse(reversed(words));
     return 0;
   } catch (const CLI::Success& done) {
     return app.exit(done);
   } catch (const CLI::RuntimeError& ended) {
     return ended.get_exit_code();  // a command that has said why
   } catch (const CLI::ParseError& error) {
-    print_error(fmt::format("{} (try: espalier --help)", error.what()));
+    if (ends_before_command(app, words)) {
+      fmt::print("{}", app.help());
+      return 0;
+    }
+    print_error(explain_wrong_words(app, words, error));
     return 2;
   } catch (const FieldError& error) {
     print_error(fmt::format("{}: {}", option_of(error.field), error.complaint));

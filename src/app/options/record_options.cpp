@@ -39,6 +39,7 @@ void add_list(CLI::App& command, const FitOption& option, RecordWords& words) {
   };
   CLI::Option* list =
       command.add_option_function<std::vector<std::string>>(name_of_option(option), keep, option.help);
+  list->group(std::string(option.group));
   if (type_of(option) == ValueType::texts) list->delimiter(',');
 }
 
@@ -48,14 +49,17 @@ void add_word(CLI::App& command, const FitOption& option, RecordWords& words) {
   };
   command.add_option_function<std::string>(name_of_option(option), keep, option.help)
       ->type_name(type_name(type_of(option)))
-      ->default_str(default_of(option));
+      ->default_str(default_of(option))
+      ->group(std::string(option.group));
 }
 
 void add_switch(CLI::App& command, const FitOption& option, RecordWords& words) {
   const char* turned = option.inverted ? "false" : "true";
-  command.add_flag_callback(
-      name_of_option(option),
-      [&words, turned, field = std::string(option.field)] { words.of[field] = {turned}; }, option.help);
+  command
+      .add_flag_callback(
+          name_of_option(option),
+          [&words, turned, field = std::string(option.field)] { words.of[field] = {turned}; }, option.help)
+      ->group(std::string(option.group));
 }
 
 }  // namespace

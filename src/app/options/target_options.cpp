@@ -10,18 +10,18 @@ std::shared_ptr<TargetOptions> add_target_options(CLI::App& command) {
   auto options = std::make_shared<TargetOptions>();
   command
       .add_option_function<std::string>(
-          "--method",
+          "--separation",
           [options](const std::string& text) {
             options->separation.method =
-                in_field("method", [&] { return parse_name<SeparationMethod>(text); });
+                in_field("separation", [&] { return parse_name<SeparationMethod>(text); });
           },
           "what tells the tree from the background: auto, alpha, luminance, background")
       ->default_str("auto");
   command
       .add_option_function<std::string>(
-          "--side",
+          "--tree-side",
           [options](const std::string& text) {
-            options->separation.side = in_field("side", [&] { return parse_name<TreeSide>(text); });
+            options->separation.side = in_field("tree_side", [&] { return parse_name<TreeSide>(text); });
           },
           "which side of the threshold is the tree: auto, light (opaque), dark (transparent)")
       ->default_str("auto");

@@ -62,6 +62,7 @@ View checked_view(const ViewOptions& options) {
 }  // namespace
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
+  command.option_defaults()->group("The view");
   command.add_option("--size", options.size, "pixels: N or WxH, up to 4096")->capture_default_str();
   CLI::Option* azimuth = command.add_option("--azimuth", options.azimuth_deg,
                                             "degrees about the vertical; 0 is the front, looking along +y");
@@ -73,6 +74,7 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
   command.add_flag("--perspective", options.perspective, "a perspective instead of an orthographic camera");
   command.add_option("--field-of-view", options.field_of_view_deg, "vertical, degrees; with --perspective")
       ->capture_default_str();
+  command.option_defaults()->group("Options");
 }
 
 PictureSize parse_size(const std::string& text) {

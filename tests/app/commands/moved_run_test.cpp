@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "support/run_espalier.h"
 
@@ -126,6 +128,32 @@ TEST_F(MovedRun, WhoseCopyWasSpoiledSaysWhatItHas) {
   EXPECT_EQ(read_text_file(run / "picture.png"), read_text_file(kMovedTargets / "oc_palm.png"));
 }
 
+/// Names between backquotes, as the page of a run's directory writes them.
+void expect_on_page(const std::string& name) {
+  static const std::string page = read_text_file(ESPALIER_SOURCE_DIR "/docs/run_directory.md");
+  EXPECT_THAT(page, HasSubstr("`" + name + "`"));
+}
+
+TEST_F(MovedRun, HasNoFileKeyOrColumnThatItsPageLeavesOut) {
+  const fs::path run = folder / "whole";
+  for (const auto& file : fs::recursive_directory_iterator(run))
+    if (file.is_regular_file()) expect_on_page(fs::relative(file, run).string());
+  const auto summary = nlohmann::json::parse(read_text_file(run / "summary.json"));
+  for (const auto& [key, value] : summary.items()) expect_on_page(key);
+  std::string columns = read_text_file(run / "trace.csv");
+  std::istringstream names(columns.substr(0, columns.find('\n')));
+  for (std::string name; std::getline(names, name, ',');) expect_on_page(name);
+}
+
+TEST(FitCommand, PrintsItsSummaryAsJson) {
+  const fs::path run = fresh_folder("json") / "run";
+  const ProgramRun done = run_espalier(small_fit_of(kMovedTargets / "oc_palm.png", run, 10) + " --json");
+  nlohmann::json printed = nlohmann::json::parse(done.out);
+  EXPECT_EQ(printed["directory"], run.string());
+  printed.erase("directory");
+  EXPECT_EQ(printed, nlohmann::json::parse(read_text_file(run / "summary.json")));
+}
+
 TEST(RunOfVersion01, IsToldWhereItsPictureIsAndKeepsIt) {
   const fs::path run = fresh_folder("old_run") / "finished";
   fs::copy(ESPALIER_SOURCE_DIR "/tests/recorded_fits/runs/finished", run);
@@ -136,7 +164,6 @@ TEST(RunOfVersion01, IsToldWhereItsPictureIsAndKeepsIt) {
   EXPECT_FALSE(fs::exists(run / "picture.png"));
   expect_it_works(resume + " --picture " + bundled_target("fir.png"));
   EXPECT_TRUE(read_text_file(run / "picture.png") == read_text_file(kMovedTargets / "fir.png"));
-  expect_it_works("fit --quiet --evaluations 320 --resume '" + run.string() + "'");
 }
 
 TEST(Picture, IsOfARunThatIsReadAgain) {

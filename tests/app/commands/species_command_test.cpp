@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include <espalier/models/preset.h>
 
@@ -24,10 +25,17 @@ void expect_refused(const std::string& content, const std::string& message) {
   fs::remove_all(folder);
 }
 
+TEST(SpeciesCommand, ListsAsJson) {
+  const auto species = nlohmann::json::parse(run_espalier("species --json").out);
+  EXPECT_EQ(species.size(), 19u + 6u);
+  EXPECT_EQ(nlohmann::json::parse(run_espalier("lsystem --json").out)[0].size(), 2u);
+}
+
 TEST(SpeciesCommand, ListsEveryBundledPresetOnALine) {
   const ProgramRun run = run_espalier("species");
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 19 + 2 + 6) << "species, a heading, designs";
+  EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 19 + 2 + 6 + 2)
+      << "species, a heading, designs, where L-systems are";
   EXPECT_THAT(run.out, HasSubstr("quaking_aspen       13 ± 3 m     Quaking aspen (Populus tremuloides)\n"));
   EXPECT_THAT(run.out, HasSubstr("\n\nDesigned branch by branch, and no species:\nbonsai_bunjin"));
 }
