@@ -30,9 +30,7 @@ TEST(ReferenceCommand, HasALineForEachMeasure) {
 }
 
 /// Help is broken into lines of a hundred columns.
-std::string in_one_line(const std::string& text) {
-  return std::regex_replace(text, std::regex("\\s+"), " ");
-}
+std::string in_one_line(const std::string& text) { return std::regex_replace(text, std::regex("\\s+"), " "); }
 
 TEST(ReferenceCommand, HasALineForEachCommandOfTheTurtle) {
   const ProgramRun run = run_espalier("reference lsystem-commands");
