@@ -3,6 +3,9 @@
 // cannot reach gets a constant. Colours are linear RGB (a Vec3 of red, green, blue; 1 is white); pictures are
 // sRGB.
 #pragma once
+#include <cstdint>
+#include <vector>
+
 #include <espalier/core/vec3.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/plant/plant.h>
@@ -30,6 +33,15 @@ struct ShadedSettings {
 /// Renders `plant` as `camera` sees it, with what stands beside it. Rows run in parallel; the same bits for
 /// any number of threads.
 Picture render_shaded(const Plant& plant, const Camera& camera, const ShadedSettings& settings = {},
+                      const SceneObjects& objects = {});
+
+struct CutOut {
+  Picture picture;                  ///< the colours of what is drawn alone, without a background
+  std::vector<std::uint8_t> cover;  ///< its opacity, 0 … 255 a pixel
+};
+
+/// The same before nothing: what lets the background through is transparent.
+CutOut render_cut_out(const Plant& plant, const Camera& camera, const ShadedSettings& settings = {},
                       const SceneObjects& objects = {});
 
 }  // namespace espalier

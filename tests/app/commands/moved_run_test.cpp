@@ -138,8 +138,8 @@ TEST_F(MovedRun, HasNoFileKeyOrColumnThatItsPageLeavesOut) {
   const fs::path run = folder / "whole";
   for (const auto& file : fs::recursive_directory_iterator(run))
     if (file.is_regular_file()) expect_on_page(fs::relative(file, run).string());
-  for (const auto& [key, value] : nlohmann::json::parse(read_text_file(run / "summary.json")).items())
-    expect_on_page(key);
+  const auto summary = nlohmann::json::parse(read_text_file(run / "summary.json"));
+  for (const auto& [key, value] : summary.items()) expect_on_page(key);
   std::string columns = read_text_file(run / "trace.csv");
   std::istringstream names(columns.substr(0, columns.find('\n')));
   for (std::string name; std::getline(names, name, ',');) expect_on_page(name);
