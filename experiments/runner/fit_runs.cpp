@@ -27,10 +27,13 @@ struct FitCell {
   int unseen_seeds = 0, siblings = 0, threads = 1;
 };
 
-/// Whether a record on disk asks for what `request` does: it also knows its target's hash, its versions, and
-/// what freedom its kind of tree has.
+/// Whether a record on disk asks for what `request` does: it also knows its target's hash, its versions, what
+/// freedom its kind of tree has and, where a user resumed it alone, what its pictures hold.
 bool same_request(FitRecord on_disk, FitRecord request) {
-  for (FitRecord* record : {&on_disk, &request}) record->target_hash.clear(), record->versions.clear();
+  for (FitRecord* record : {&on_disk, &request}) {
+    record->target_hash.clear(), record->versions.clear();
+    for (ViewRecord& view : record->views) view.content.reset();
+  }
   if (request.freedom == kFreedomOfKind) request.freedom = on_disk.freedom;
   return record_to_toml(on_disk, std::nullopt) == record_to_toml(request, std::nullopt);
 }

@@ -8,6 +8,7 @@
 #include <espalier/fitting/branches/branch_laying.h>
 #include <espalier/fitting/branches/branch_refinement.h>
 #include <espalier/fitting/branches/branch_tracing.h>
+#include <espalier/fitting/branches/policy.h>
 #include <espalier/image/reading/medial_axes.h>
 #include <espalier/image/reading/roots.h>
 #include <espalier/overrides/change_graph.h>

@@ -47,6 +47,7 @@ constexpr ValueName kValueNames[] = {
     {"", "--season", "WORD", Offers::words, "summer|autumn|winter|spring"},
     {"", "--detail", "WORD|NUMBER", Offers::words, "low|medium|high"},
     {"", "--background", "WORD", Offers::words, "sky|white|transparent"},
+    {"", "--sun", "AZ,EL"},
     {"", "--up", "AXIS", Offers::words, "y|z"},
     {"", "--encoding", "WORD", Offers::words, "monotone|raw"},
     {"params", "--format", "WORD", Offers::words, "text|markdown|json"},

@@ -13,8 +13,9 @@ namespace espalier {
 
 namespace {
 
-const std::vector<std::string> kPresetKeys = {"name",   "description", "model",       "extends",      "seed",
-                                              "branch", "shared",      kGrownIntoKey, "demonstration"};
+const std::vector<std::string> kPresetKeys = {"name",          "description", "model",      "extends",
+                                              "seed",          "branch",      "shared",     kGrownIntoKey,
+                                              "demonstration", "bark_color",  "leaf_color", "autumn_color"};
 
 /// The text under a key of the preset itself, if it is there.
 std::optional<std::string> read_text(const toml::table& document, const std::string& source,
@@ -41,6 +42,17 @@ bool read_demonstration(const toml::table& document, const std::string& source) 
   if (const auto is_one = node->value_exact<bool>()) return *is_one;
   throw_input_error("{}: key 'demonstration': got {}, expected true or false", toml_location(source, *node),
                     describe_toml(*node));
+}
+
+void read_color(const toml::table& document, const std::string& source, std::string_view key,
+                PartColor& color) {
+  const auto text = read_text(document, source, key);
+  if (!text) return;
+  const auto read = parse_color(*text);
+  if (!read)
+    throw_input_error("{}: key '{}': got '{}', expected a colour such as \"#ece9e2\"",
+                      toml_location(source, *document.get(key)), key, *text);
+  color = *read;
 }
 
 /// The identities of the presets that lead to this one by `extends`.
@@ -165,6 +177,9 @@ Preset load_chain(const PresetSource& source, Chain& chain) {
   preset.description = read_text(document, source.label, "description").value_or(preset.description);
   if (const auto seed = read_seed(document, source.label)) preset.seed = seed;
   preset.demonstration = read_demonstration(document, source.label);  // what extends one need not be one
+  read_color(document, source.label, "bark_color", preset.colors.bark);
+  read_color(document, source.label, "leaf_color", preset.colors.leaf);
+  read_color(document, source.label, "autumn_color", preset.colors.autumn);
   const Model& model = model_by_name(preset.model);
   read_parameters(document, source.label, model.table(), kPresetKeys, preset.values);
   read_overrides({document, source.label}, model.table(), preset.overrides);

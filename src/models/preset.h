@@ -9,6 +9,7 @@
 #include <espalier/core/random.h>
 #include <espalier/models/grown_into.h>
 #include <espalier/overrides/overrides.h>
+#include <espalier/plant/plant_colors.h>
 
 namespace espalier {
 
@@ -21,6 +22,7 @@ struct Preset {
   std::vector<GrownInto> grown_into = {};  ///< pictures whose outlines the tree stays inside of
   std::optional<Seed> seed = {};           ///< of the one tree it stands for; none: of a species
   bool demonstration = false;              ///< shows what the model can do, and is no species
+  PlantColors colors = {};                 ///< of its species
 };
 
 /// Names of the bundled species, sorted.

@@ -41,6 +41,11 @@ std::string comment(const ParameterInfo& row) {
   return row.unit.empty() || row.unit == "1" ? row.help : fmt::format("{}: {}", row.unit, row.help);
 }
 
+/// Nothing where it is not set.
+std::string color_line(const char* key, PartColor color) {
+  return color.is_set ? fmt::format("{} = {}\n", key, quote_toml(color_text(color))) : "";
+}
+
 }  // namespace
 
 std::string preset_to_toml(const Preset& preset) {
@@ -55,6 +60,8 @@ std::string preset_to_toml(const Preset& preset, const ParameterTable& table) {
     text += fmt::format("{:<36}  # of the tree that was fitted\n",
                         fmt::format("seed = {}", static_cast<std::int64_t>(*preset.seed)));
   if (preset.demonstration) text += "demonstration = true\n";
+  text += color_line("bark_color", preset.colors.bark) + color_line("leaf_color", preset.colors.leaf) +
+          color_line("autumn_color", preset.colors.autumn);
   text += "\n";
   const std::vector<bool> in_use = rows_in_use(table, preset.values);
   const auto is_written = [&](std::size_t i) {

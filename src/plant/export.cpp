@@ -1,5 +1,5 @@
 // Export through Assimp: our arrays become its scene, its exporter makes the files in memory, and they
-// are written whole. Metres; y up for glTF (Khronos, glTF 2.0, section 3.4), z up otherwise.
+// are written whole. Metres; y up for glTF (Khronos, glTF 2.0, section 3.4).
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <unistd.h>
@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <espalier/core/error.h>
+#include <espalier/core/field_error.h>
 #include <espalier/core/files.h>
 #include <espalier/plant/export.h>
 #include <espalier/plant/mesh_colors.h>
@@ -34,7 +35,7 @@ struct MeshFormat {
 };
 
 constexpr std::array<MeshFormat, 4> kFormats{
-    {{".glb", "glb2", true}, {".obj", "obj", false}, {".ply", "plyb", false}, {".stl", "stlb", false}}};
+    {{".glb", "glb2", true}, {".obj", "obj", true}, {".ply", "plyb", false}, {".stl", "stlb", false}}};
 
 struct Material {
   std::string name;
@@ -169,10 +170,16 @@ void add_parts(const TriangleMesh& mesh, const Material& material, std::vector<P
     add(std::make_shared<TriangleMesh>(std::move(part)), colored(material, color));
 }
 
-std::vector<Part> parts_of(const PlantMesh& mesh) {
+/// The material in the colour of a species; its name stays.
+Material in_color(Material material, PartColor color) {
+  if (color.is_set) material.colour = {linear(color.r), linear(color.g), linear(color.b)};
+  return material;
+}
+
+std::vector<Part> parts_of(const PlantMesh& mesh, const MeshFileOptions& options) {
   std::vector<Part> parts;
-  add_parts(mesh.bark, kBark, parts);
-  add_parts(mesh.leaves, kLeaf, parts);
+  add_parts(mesh.bark, in_color(kBark, options.bark), parts);
+  add_parts(mesh.leaves, in_color(kLeaf, options.leaf), parts);
   add_parts(mesh.blossoms, kBlossom, parts);
   return parts;
 }
@@ -192,8 +199,9 @@ void add_part(const Part& part, const MeshFormat& format, aiScene& scene) {
 }
 
 /// One child of the root a material. The scene owns what is in it.
-std::unique_ptr<aiScene> make_scene(const PlantMesh& mesh, const MeshFormat& format) {
-  const std::vector<Part> parts = parts_of(mesh);
+std::unique_ptr<aiScene> make_scene(const PlantMesh& mesh, const MeshFormat& format,
+                                    const MeshFileOptions& options) {
+  const std::vector<Part> parts = parts_of(mesh, options);
   std::size_t piece_count = 0;
   for (const Part& part : parts) piece_count += part.pieces.size();
   auto scene = std::make_unique<aiScene>();
@@ -207,6 +215,45 @@ std::unique_ptr<aiScene> make_scene(const PlantMesh& mesh, const MeshFormat& for
 
 std::string_view bytes_of(const aiExportDataBlob& blob) {
   return {static_cast<const char*>(blob.data), blob.size};
+}
+
+/// The row of the format with the axis that was asked for.
+MeshFormat format_for(const fs::path& path, const MeshFileOptions& options) {
+  MeshFormat format = format_of(path);
+  if (options.up) format.y_up = *options.up == UpAxis::y;
+  if (format.extension == ".glb" && !format.y_up)
+    throw_field_error("up", "got z for '{}', expected y, which glTF demands, or an obj, ply or stl",
+                      path.string());
+  return format;
+}
+
+/// A name that every reader of obj takes for one word.
+std::string safe_name(std::string name) {
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) &&
+        std::string_view(".-_").find(c) == std::string_view::npos)
+      c = '_';
+  return name;
+}
+
+std::string axes_in_words(const MeshFormat& format) {
+  return format.y_up ? "metres, y is up, the front is seen from +z"
+                     : "metres, z is up, the front is seen from -y";
+}
+
+/// The bytes of a file with what they are in its header, where the format has room for words.
+std::string with_header(const MeshFormat& format, std::string_view bytes) {
+  const std::string words = "Espalier: " + axes_in_words(format);
+  std::string file(bytes);
+  if (format.extension == ".obj") return "# " + words + "\n" + file;
+  if (format.extension == ".ply") {
+    const auto behind_format = file.find('\n', file.find("\nformat ") + 1) + 1;
+    return file.insert(behind_format, "comment " + words + "\n");
+  }
+  constexpr std::size_t kStlHeader = 80;
+  if (format.extension == ".stl")
+    file.replace(0, kStlHeader, (words + std::string(kStlHeader, ' ')).substr(0, kStlHeader));
+  return file;
 }
 
 }  // namespace
@@ -224,15 +271,19 @@ void check_mesh_path(const fs::path& path) {
                       std::strerror(errno));
 }
 
-void write_mesh(const PlantMesh& mesh, const fs::path& path) {
+UpAxis usual_up_axis(const fs::path& path) { return format_of(path).y_up ? UpAxis::y : UpAxis::z; }
+
+void check_up_axis(const fs::path& path, UpAxis up) { format_for(path, {.up = up}); }
+
+void write_mesh(const PlantMesh& mesh, const fs::path& path, const MeshFileOptions& options) {
   check_mesh_path(path);
-  const MeshFormat& format = format_of(path);
+  const MeshFormat format = format_for(path, options);
   if (mesh.triangle_count() == 0)
     throw_input_error("mesh '{}': the plant has no stems and no leaves", path.string());
   Assimp::Exporter exporter;
   Assimp::ExportProperties properties;
-  properties.SetPropertyString(AI_CONFIG_EXPORT_BLOB_NAME, path.filename().string());  // an obj names its mtl
-  const std::unique_ptr<aiScene> scene = make_scene(mesh, format);
+  properties.SetPropertyString(AI_CONFIG_EXPORT_BLOB_NAME, safe_name(path.filename().string()));  // of an mtl
+  const std::unique_ptr<aiScene> scene = make_scene(mesh, format, options);
   const aiExportDataBlob* blob =
       exporter.ExportToBlob(scene.get(), std::string(format.assimp_id), 0, &properties);
   if (!blob)
@@ -240,7 +291,7 @@ void write_mesh(const PlantMesh& mesh, const fs::path& path) {
   // The first blob is the mesh, one may follow. The mesh is written last: it names the other.
   for (const aiExportDataBlob* extra = blob->next; extra; extra = extra->next)
     write_file_atomically(path.parent_path() / extra->name.C_Str(), bytes_of(*extra));
-  write_file_atomically(path, bytes_of(*blob));
+  write_file_atomically(path, with_header(format, bytes_of(*blob)));
 }
 
 void export_mesh(const Plant& plant, const fs::path& path, const MeshOptions& options) {

@@ -105,15 +105,41 @@ TEST(Preset, WritingAndReadingKeepsEveryBit) {
         preset.values[curve.first_row] += preset.values[curve.first_row] == 0;
     preset.demonstration = *rc::gen::arbitrary<bool>();
     if (*rc::gen::arbitrary<bool>()) preset.seed = *rc::gen::element<Seed>(0, 7, Seed{1} << 63, ~Seed{0});
+    for (PartColor* color : {&preset.colors.bark, &preset.colors.leaf, &preset.colors.autumn})
+      if (*rc::gen::arbitrary<bool>())
+        *color = {*rc::gen::arbitrary<std::uint8_t>(), *rc::gen::arbitrary<std::uint8_t>(), 7, true};
     const Preset again = load_preset(folder.write("random.toml", preset_to_toml(preset)));
     RC_ASSERT(again.name == preset.name);
     RC_ASSERT(again.seed == preset.seed);
+    RC_ASSERT(again.colors == preset.colors);
     RC_ASSERT(again.demonstration == preset.demonstration);
     RC_ASSERT(again.description == preset.description);
     for (std::size_t i = 0; i < preset.values.size(); ++i)
       RC_ASSERT(std::bit_cast<std::uint64_t>(again.values[i]) ==
                 std::bit_cast<std::uint64_t>(preset.values[i]));
   }));
+}
+
+TEST(Preset, EverySpeciesHasItsColours) {
+  for (const std::string& name : bundled_presets()) {
+    const Preset preset = load_preset(name);
+    EXPECT_EQ(preset.colors.bark.is_set && preset.colors.leaf.is_set && preset.colors.autumn.is_set,
+              !preset.demonstration)
+        << name;
+  }
+  const PartColor birch = load_preset("silver_birch").colors.bark, bamboo = load_preset("bamboo").colors.bark,
+                  larch = load_preset("european_larch").colors.autumn;
+  EXPECT_GT(std::min({birch.r, birch.g, birch.b}), 200) << "white";
+  EXPECT_GT(bamboo.g, bamboo.r) << "green";
+  EXPECT_GT(std::min(larch.r, larch.g), 3 * larch.b) << "yellow";
+}
+
+TEST(Preset, ColoursAreInherited) {
+  const PresetFolder folder;
+  const Preset preset =
+      load_preset(folder.write("mine.toml", "extends = \"silver_birch\"\nleaf_color = \"#010203\"\n"));
+  EXPECT_EQ(preset.colors.bark, load_preset("silver_birch").colors.bark);
+  EXPECT_EQ(preset.colors.leaf, (PartColor{1, 2, 3, true}));
 }
 
 /// What a preset of one line says is wrong with it.
@@ -361,6 +387,11 @@ INSTANTIATE_TEST_SUITE_P(
     One, PresetFault,
     testing::Values(
         Fault{"UnknownKey", "g_scal = 1", "key 'g_scal': got an unknown key, expected one like 'g_scale'"},
+        Fault{"ColourByName", "bark_color = \"white\"",
+              "key 'bark_color': got 'white', expected a colour such as \"#ece9e2\""},
+        Fault{"ColourOfThreeDigits", "leaf_color = \"#fff\"",
+              "key 'leaf_color': got '#fff', expected a colour"},
+        Fault{"ColourThatIsANumber", "autumn_color = 3", "key 'autumn_color': got 3, expected a string"},
         Fault{"NaN", "flare = nan", "key 'flare': got nan, expected a number 0..20"},
         Fault{"Infinity", "flare = inf", "key 'flare': got inf, expected a number"},
         Fault{"NegativeInfinity", "flare = -inf", "key 'flare': got -inf, expected a number"},

@@ -115,14 +115,14 @@ TEST_F(Export, EveryFormatKeepsSurfacesClosedAndTheirVolume) {
   const PlantMesh mesh = bark_only();
   const double volume = enclosed_volume_m3(mesh.bark), area = area_m2(mesh.bark);
   for (const std::string name : {"a.glb", "a.obj", "a.ply", "a.stl"}) {
-    const TriangleMesh read = soup(write_and_read(mesh, name), name == "a.glb");
+    const TriangleMesh read = soup(write_and_read(mesh, name), name == "a.glb" || name == "a.obj");
     EXPECT_EQ(unmatched_edges(read), 0u) << name;
     EXPECT_NEAR(enclosed_volume_m3(read), volume, 1e-4 * volume) << name;
     EXPECT_NEAR(area_m2(read), area, 1e-4 * area) << name;
   }
 }
 
-TEST_F(Export, GltfIsYUpAndTheOthersZUp) {
+TEST_F(Export, GltfAndObjAreYUpAndTheOthersZUp) {
   Plant plant;
   add_straight_stem(plant, {0, 0, 0}, {0, 1, 4}, 0.1f, 0);
   const PlantMesh mesh = mesh_plant(plant, {});
@@ -132,7 +132,7 @@ TEST_F(Export, GltfIsYUpAndTheOthersZUp) {
                        [&](const aiVector3D& v) { return (v - tip).Length() < 1e-5f; });
   };
   EXPECT_TRUE(has_vertex(write_and_read(mesh, "a.glb"), {0, 4, -1}));
-  EXPECT_TRUE(has_vertex(write_and_read(mesh, "a.obj"), {0, 1, 4}));
+  EXPECT_TRUE(has_vertex(write_and_read(mesh, "a.obj"), {0, 4, -1}));
   EXPECT_TRUE(has_vertex(write_and_read(mesh, "a.ply"), {0, 1, 4}));
   EXPECT_TRUE(has_vertex(write_and_read(mesh, "a.stl"), {0, 1, 4}));
 }
@@ -204,8 +204,48 @@ TEST_F(Export, PartsTooLargeForOnePieceStayWhole) {
 
 TEST_F(Export, ObjNamesTheMaterialFileBesideIt) {
   write_mesh(mesh_plant(small_plant(), {}), directory_ / "my tree.v2.obj");
-  EXPECT_EQ(files(), (std::set<std::string>{"my tree.v2.mtl", "my tree.v2.obj"}));
-  EXPECT_THAT(bytes("my tree.v2.obj"), HasSubstr("mtllib my tree.v2.mtl"));
+  EXPECT_EQ(files(), (std::set<std::string>{"my_tree.v2.mtl", "my tree.v2.obj"}));
+  EXPECT_THAT(bytes("my tree.v2.obj"), HasSubstr("mtllib my_tree.v2.mtl\n"));
+}
+
+/// The largest coordinate of each axis.
+std::array<float, 3> highest_of(const aiScene& scene) {
+  std::array<float, 3> highest{};
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+    for (unsigned i = 0; i < scene.mMeshes[m]->mNumVertices; ++i)
+      for (unsigned axis = 0; axis < 3; ++axis)
+        highest[axis] = std::max(highest[axis], scene.mMeshes[m]->mVertices[i][axis]);
+  return highest;
+}
+
+TEST_F(Export, TheTrunkPointsAlongTheAxisThatIsUp) {
+  const PlantMesh mesh = bark_only();
+  const float top_m =
+      std::max_element(mesh.bark.position_m.begin(), mesh.bark.position_m.end(), [](Vec3 a, Vec3 b) {
+        return a.z < b.z;
+      })->z;
+  for (const char* name : {"a.glb", "a.obj", "a.ply", "a.stl"})
+    for (const UpAxis up : {UpAxis::y, UpAxis::z}) {
+      if (std::string_view(name) == "a.glb" && up == UpAxis::z) continue;
+      write_mesh(mesh, directory_ / name, {up});
+      const aiScene* scene = importer_.ReadFile((directory_ / name).string(), 0);
+      ASSERT_TRUE(scene) << importer_.GetErrorString();
+      EXPECT_NEAR(highest_of(*scene)[up == UpAxis::y ? 1 : 2], top_m, 1e-4) << name;
+    }
+  EXPECT_THROW(write_mesh(mesh, directory_ / "b.glb", {UpAxis::z}), InputError);
+  EXPECT_FALSE(fs::exists(directory_ / "b.glb"));
+}
+
+TEST_F(Export, HeadersSayUnitsAndAxes) {
+  const PlantMesh mesh = bark_only();
+  for (const char* name : {"a.obj", "a.ply", "a.stl"}) {
+    write_mesh(mesh, directory_ / name);
+    const char* axis = usual_up_axis(name) == UpAxis::y ? "y" : "z";
+    EXPECT_THAT(bytes(name).substr(0, 200), HasSubstr(std::string("Espalier: metres, ") + axis + " is up"))
+        << name;
+  }
+  EXPECT_EQ(usual_up_axis("a.obj"), UpAxis::y);
+  EXPECT_EQ(usual_up_axis("a.stl"), UpAxis::z);
 }
 
 TEST_F(Export, SameMeshGivesTheSameBytes) {

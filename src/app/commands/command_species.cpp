@@ -64,9 +64,17 @@ void list_species() {
   fmt::print("\nL-systems are listed by espalier lsystem.\n");
 }
 
+/// Of the one tree that the preset stands for: splits, bends and overrides make it lower than its parameters
+/// say.
+std::string grown_height_text(const Preset& preset, const std::string& file) {
+  const Bounds box = bounds(grow_preset(preset, file));
+  return fmt::format("{:.2f} m", box.upper.z - box.lower.z);
+}
+
 void check_file(const std::string& file) {
   const Preset preset = load_preset(file);
-  fmt::print("ok {}: {}, model {}, height {}\n", file, preset.name, preset.model, height_text(preset));
+  fmt::print("ok {}: {}, model {}, height {}\n", file, preset.name, preset.model,
+             preset.seed ? grown_height_text(preset, file) : height_text(preset));
 }
 
 /// The overrides of single branches as a tree in comments; dormant ones are those that do not grow with

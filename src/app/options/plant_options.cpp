@@ -84,6 +84,8 @@ std::unique_ptr<Volume> read_volume(const std::string& text) {
   return make_scaled(static_cast<float>(derivation.settings().unit_m), derivation.volume(name));
 }
 
+PlantColors colors_of(const PlantOptions& options) { return load_preset(options.preset).colors; }
+
 Plant grow_plant(const PlantOptions& options) {
   if (options.steps && *options.steps < 0)
     throw_input_error("--steps {}: expected 0 or more", *options.steps);

@@ -10,6 +10,7 @@
 #include <espalier/core/random.h>
 #include <espalier/environment/volume.h>
 #include <espalier/plant/plant.h>
+#include <espalier/plant/plant_colors.h>
 
 namespace CLI {
 class App;
@@ -35,6 +36,9 @@ void set_parameters(const std::vector<std::string>& assignments, const Parameter
 /// A volume as text (environment/volume.h), or "FILE.lsys:NAME", one that an L-system declares, with its
 /// default parameters. Metres. Throws InputError.
 std::unique_ptr<Volume> read_volume(const std::string& text);
+
+/// Of the preset's species.
+PlantColors colors_of(const PlantOptions& options);
 
 /// Grows the plant. Throws InputError for an unknown preset or parameter, a value outside its bounds, a bad
 /// volume, or a plant that would exceed the growth budget.

@@ -39,15 +39,11 @@ View parse_view(const ViewOptions& options) {
   view.projection = options.perspective ? Projection::perspective : Projection::orthographic;
   view.field_of_view_deg = static_cast<float>(options.field_of_view_deg);
   if (options.view.empty()) return view;
-  const std::string_view text = options.view;
-  const std::size_t comma = text.find(',');
-  const auto azimuth = parse_number<float>(text.substr(0, comma));
-  const auto elevation =
-      comma == text.npos ? std::optional(0.0f) : parse_number<float>(text.substr(comma + 1));
-  if (!azimuth || !elevation)
-    throw_input_error("--view {}: expected azimuth,elevation in degrees, such as 30,10", text);
-  view.azimuth_deg = *azimuth;
-  view.elevation_deg = *elevation;
+  const auto angles = parse_angles(options.view);
+  if (!angles)
+    throw_input_error("--view {}: expected azimuth,elevation in degrees, such as 30,10", options.view);
+  view.azimuth_deg = angles->azimuth_deg;
+  view.elevation_deg = angles->elevation_deg;
   return view;
 }
 
@@ -75,6 +71,20 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
   command.add_option("--field-of-view", options.field_of_view_deg, "vertical, degrees; with --perspective")
       ->capture_default_str();
   command.option_defaults()->group("Options");
+}
+
+std::optional<Angles> parse_angles(const std::string& text) {
+  const std::string_view all = text;
+  const std::size_t comma = all.find(',');
+  const auto azimuth = parse_number<float>(all.substr(0, comma));
+  const auto elevation = comma == all.npos ? std::optional(0.0f) : parse_number<float>(all.substr(comma + 1));
+  if (!azimuth || !elevation) return std::nullopt;
+  return Angles{*azimuth, *elevation};
+}
+
+bool sees_ground(const ViewOptions& options) {
+  const View view = parse_view(options);
+  return view.projection == Projection::perspective || view.elevation_deg > 0;
 }
 
 PictureSize parse_size(const std::string& text) {

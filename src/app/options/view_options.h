@@ -1,6 +1,7 @@
 // The options of commands that draw one plant: picture size and the direction it is seen from.
 // Shared by mask and render, so that both frame a plant alike.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,16 @@ struct ViewOptions {
 
 /// Adds --size, --view, --azimuth, --elevation, --perspective and --field-of-view.
 void add_view_options(CLI::App& command, ViewOptions& options);
+
+/// Whether a lawn is more than a line from there.
+bool sees_ground(const ViewOptions& options);
+
+struct Angles {
+  float azimuth_deg = 0, elevation_deg = 0;
+};
+
+/// "30,10", or "30" for an elevation of 0; nothing for other texts.
+std::optional<Angles> parse_angles(const std::string& text);
 
 struct PictureSize {
   int width_px = 0, height_px = 0;

@@ -57,10 +57,12 @@ float linear(std::uint8_t srgb) {
 /// The colour that the model gave to this part, if it did.
 std::optional<LinearRgb> color_of(const std::vector<PartColor>& colors, std::size_t i) {
   if (i >= colors.size() || !colors[i].is_set) return std::nullopt;
-  return LinearRgb{linear(colors[i].r), linear(colors[i].g), linear(colors[i].b)};
+  return to_linear(colors[i]);
 }
 
 }  // namespace
+
+LinearRgb to_linear(PartColor color) { return {linear(color.r), linear(color.g), linear(color.b)}; }
 
 SurfaceFinder::SurfaceFinder(const Plant& plant, const EmbreeScene& scene, const ShadedSettings& settings)
     : plant_(plant),

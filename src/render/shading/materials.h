@@ -9,6 +9,8 @@
 
 namespace espalier {
 
+LinearRgb to_linear(PartColor color);
+
 struct Surface {
   Vec3 point_m, normal;   ///< the normal is a unit vector on the viewer's side
   LinearRgb reflected;    ///< share of the light on the viewer's side that comes back

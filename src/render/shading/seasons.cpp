@@ -3,6 +3,7 @@
 #include <array>
 
 #include <espalier/core/error.h>
+#include <espalier/render/shading/materials.h>
 #include <espalier/render/shading/seasons.h>
 
 namespace espalier {
@@ -31,7 +32,24 @@ const Season& season_of(const std::string& name) {
   return *season;
 }
 
+/// Leaves let through what they reflect, more of its red and green.
+void set_leaf(PartColor color, ShadedSettings& settings) {
+  constexpr LinearRgb kThrough{1.25f, 1.2f, 0.7f};
+  settings.leaf = to_linear(color);
+  settings.leaf_through = {kThrough.x * settings.leaf.x, kThrough.y * settings.leaf.y,
+                           kThrough.z * settings.leaf.z};
+}
+
 }  // namespace
+
+void apply_colors(const PlantColors& colors, const std::string& season, ShadedSettings& settings) {
+  if (colors.bark.is_set) settings.bark = to_linear(colors.bark);
+  if (season == "autumn") {
+    if (colors.autumn.is_set) set_leaf(colors.autumn, settings);
+  } else if (season != "spring" && colors.leaf.is_set) {
+    set_leaf(colors.leaf, settings);
+  }
+}
 
 std::vector<std::string> season_names() {
   std::vector<std::string> names;

@@ -68,33 +68,59 @@ LinearRgb background(const ShadedSettings& settings, const Camera& camera, int y
               (static_cast<float>(y) + 0.5f) / static_cast<float>(camera.height_px));
 }
 
-/// The colour on screen (tone-mapped, linear) that one sample of a pixel sees.
-LinearRgb sample_color(const Shader& shader, const Camera& camera, float x_px, float y_px, RandomKey pixel,
-                       int sample) {
-  const LinearRgb behind = background(shader.settings, camera, static_cast<int>(y_px));
+/// What one sample of a pixel sees before the background: a colour on screen (tone-mapped, linear), and how
+/// opaque.
+struct Sample {
+  LinearRgb color;
+  float opacity = 0;
+};
+
+Sample take_sample(const Shader& shader, const Camera& camera, float x_px, float y_px, RandomKey pixel,
+                   int sample) {
   const std::optional<Surface> surface = shader.surfaces.first_hit(camera_ray(camera, x_px, y_px));
-  if (!surface) return behind;
+  if (!surface) return {};
   const LinearRgb light = shader.light_from_sun(*surface, sample_point(pixel, kSunPurpose, sample)) +
                           shader.light_from_sky(*surface, sample_point(pixel, kSkyPurpose, sample));
-  return lerp(behind, tone_mapped(light), surface->opacity);
+  return {tone_mapped(light), surface->opacity};
 }
 
-Rgb pixel_color(const Shader& shader, const Camera& camera, int x, int y) {
+/// use(sample) for each of a pixel, in their order.
+template <typename Use>
+void for_each_sample(const Shader& shader, const Camera& camera, int x, int y, Use use) {
   const RandomKey pixel =
       child_key(child_key({0x706978656c}, static_cast<std::uint64_t>(x)), static_cast<std::uint64_t>(y));
-  const int samples = shader.settings.samples_per_px;
-  LinearRgb sum;
-  for (int i = 0; i < samples; ++i) {
+  for (int i = 0; i < shader.settings.samples_per_px; ++i) {
     const UnitSquarePoint p = sample_point(pixel, kPixelPurpose, i);
-    sum += sample_color(shader, camera, static_cast<float>(x) + p.u, static_cast<float>(y) + p.v, pixel, i);
+    use(take_sample(shader, camera, static_cast<float>(x) + p.u, static_cast<float>(y) + p.v, pixel, i));
   }
-  const LinearRgb mean = sum * (1 / static_cast<float>(samples));
-  return {srgb_byte(mean.x), srgb_byte(mean.y), srgb_byte(mean.z)};
+}
+
+Rgb to_srgb(LinearRgb color) { return {srgb_byte(color.x), srgb_byte(color.y), srgb_byte(color.z)}; }
+
+Rgb pixel_color(const Shader& shader, const Camera& camera, int x, int y) {
+  const LinearRgb behind = background(shader.settings, camera, y);
+  LinearRgb sum;
+  for_each_sample(shader, camera, x, y, [&](const Sample& sample) {
+    sum += sample.opacity == 0 ? behind : lerp(behind, sample.color, sample.opacity);
+  });
+  return to_srgb(sum * (1 / static_cast<float>(shader.settings.samples_per_px)));
+}
+
+/// The mean colour of what covers the pixel, and how much of it.
+Rgb cut_out_pixel(const Shader& shader, const Camera& camera, int x, int y, std::uint8_t& cover) {
+  LinearRgb sum;
+  float opacity = 0;
+  for_each_sample(shader, camera, x, y, [&](const Sample& sample) {
+    sum += sample.color * sample.opacity;
+    opacity += sample.opacity;
+  });
+  cover = static_cast<std::uint8_t>(
+      std::lround(255 * opacity / static_cast<float>(shader.settings.samples_per_px)));
+  return opacity > 0 ? to_srgb(sum * (1 / opacity)) : Rgb{};
 }
 
 Rgb background_color(const ShadedSettings& settings, const Camera& camera, int y) {
-  const LinearRgb color = background(settings, camera, y);
-  return {srgb_byte(color.x), srgb_byte(color.y), srgb_byte(color.z)};
+  return to_srgb(background(settings, camera, y));
 }
 
 /// The direction moves with the viewer, so that the side that is seen is lit whatever the view.
@@ -118,38 +144,53 @@ bool contains(const PixelRectangle& rectangle, int x, int y) {
   return x >= rectangle.begin_x && x < rectangle.end_x && y >= rectangle.begin_y && y < rectangle.end_y;
 }
 
-}  // namespace
+/// What rays meet of a plant: built anew only for a camera that needs finer or coarser stems.
+class ShadedScene {
+ public:
+  ShadedScene(const Plant& plant, const SceneObjects& objects) : plant_(plant), objects_(objects) {}
 
-namespace {
+  const EmbreeScene& for_camera(const Camera& camera) {
+    const float tolerance_m = stem_tolerance_m(plant_, camera);
+    if (tolerance_m != built_for_m_) scene_.build(plant_, tolerance_m, objects_);
+    built_for_m_ = tolerance_m;
+    return scene_;
+  }
 
-Picture trace_shaded(const Plant& plant, const EmbreeScene& scene, const Camera& camera,
-                     const ShadedSettings& settings) {
+ private:
+  const Plant& plant_;
+  const SceneObjects& objects_;
+  EmbreeScene scene_{SceneQuality::fast_trace};
+  float built_for_m_ = 0;  ///< tolerance
+};
+
+/// draw(shader, camera, x, y, may_be_covered) for each pixel; rows run in parallel.
+template <typename Draw>
+void for_each_pixel(const Plant& plant, const EmbreeScene& scene, const Camera& camera,
+                    const ShadedSettings& settings, Draw draw) {
+  ESPALIER_CHECK_EQ(settings.samples_per_px >= 1 && settings.samples_per_px <= 1024, true);
   const SurfaceFinder surfaces(plant, scene, settings);
   const Camera traced = moved_before(camera, drawn_box(scene.box_m(), settings));
   const Shader shader{surfaces, settings, sun_direction(camera, settings)};
   const PixelRectangle covered = covered_pixels(camera, scene.box_m());
-  Picture picture(camera.width_px, camera.height_px);
 #pragma omp parallel for schedule(dynamic, 1)
   for (int y = 0; y < camera.height_px; ++y)
     for (int x = 0; x < camera.width_px; ++x)
-      picture.at(x, y) = settings.ground || contains(covered, x, y) ? pixel_color(shader, traced, x, y)
-                                                                    : background_color(settings, camera, y);
-  return picture;
+      draw(shader, traced, x, y, settings.ground || contains(covered, x, y));
 }
 
 }  // namespace
 
 std::vector<Picture> render_shaded(const Plant& plant, std::span<const Camera> cameras,
                                    const ShadedSettings& settings, const SceneObjects& objects) {
-  ESPALIER_CHECK_EQ(settings.samples_per_px >= 1 && settings.samples_per_px <= 1024, true);
-  EmbreeScene scene(SceneQuality::fast_trace);
-  float built_for_m = 0;  // tolerance
+  ShadedScene scene(plant, objects);
   std::vector<Picture> pictures;
   for (const Camera& camera : cameras) {
-    const float tolerance_m = stem_tolerance_m(plant, camera);
-    if (tolerance_m != built_for_m) scene.build(plant, tolerance_m, objects);
-    built_for_m = tolerance_m;
-    pictures.push_back(trace_shaded(plant, scene, camera, settings));
+    Picture& picture = pictures.emplace_back(camera.width_px, camera.height_px);
+    for_each_pixel(plant, scene.for_camera(camera), camera, settings,
+                   [&](const Shader& shader, const Camera& traced, int x, int y, bool may_be_covered) {
+                     picture.at(x, y) = may_be_covered ? pixel_color(shader, traced, x, y)
+                                                       : background_color(settings, camera, y);
+                   });
   }
   return pictures;
 }
@@ -157,6 +198,21 @@ std::vector<Picture> render_shaded(const Plant& plant, std::span<const Camera> c
 Picture render_shaded(const Plant& plant, const Camera& camera, const ShadedSettings& settings,
                       const SceneObjects& objects) {
   return std::move(render_shaded(plant, std::span(&camera, 1), settings, objects).front());
+}
+
+CutOut render_cut_out(const Plant& plant, const Camera& camera, const ShadedSettings& settings,
+                      const SceneObjects& objects) {
+  ShadedScene scene(plant, objects);
+  CutOut cut{Picture(camera.width_px, camera.height_px), {}};
+  cut.cover.resize(cut.picture.pixels.size());
+  for_each_pixel(plant, scene.for_camera(camera), camera, settings,
+                 [&](const Shader& shader, const Camera& traced, int x, int y, bool may_be_covered) {
+                   if (!may_be_covered) return;
+                   const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
+                                   static_cast<std::size_t>(x);
+                   cut.picture.pixels[at] = cut_out_pixel(shader, traced, x, y, cut.cover[at]);
+                 });
+  return cut;
 }
 
 }  // namespace espalier

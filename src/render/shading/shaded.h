@@ -3,6 +3,7 @@
 // cannot reach gets a constant. Colours are linear RGB (a Vec3 of red, green, blue; 1 is white); pictures are
 // sRGB.
 #pragma once
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -38,5 +39,14 @@ Picture render_shaded(const Plant& plant, const Camera& camera, const ShadedSett
 /// The same from several sides: what rays meet is built once for cameras of one scale.
 std::vector<Picture> render_shaded(const Plant& plant, std::span<const Camera> cameras,
                                    const ShadedSettings& settings = {}, const SceneObjects& objects = {});
+
+struct CutOut {
+  Picture picture;                  ///< the colours of what is drawn alone, without a background
+  std::vector<std::uint8_t> cover;  ///< its opacity, 0 … 255 a pixel
+};
+
+/// The same before nothing: what lets the background through is transparent.
+CutOut render_cut_out(const Plant& plant, const Camera& camera, const ShadedSettings& settings = {},
+                      const SceneObjects& objects = {});
 
 }  // namespace espalier

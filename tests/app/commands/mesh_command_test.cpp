@@ -7,6 +7,7 @@
 #include <assimp/Importer.hpp>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "support/run_espalier.h"
@@ -67,6 +68,43 @@ Extent extent_of(const std::string& file) {
       extent.reach_m = std::max(extent.reach_m, std::hypot(v.x, v.y));
     }
   return extent;
+}
+
+/// The numbers behind "Kd" of a material of an mtl file.
+std::string diffuse_of(const std::string& mtl, const std::string& material) {
+  const auto begin = mtl.find("newmtl " + material), color = mtl.find("Kd ", begin);
+  return mtl.substr(color, mtl.find('\n', color) - color);
+}
+
+TEST_F(MeshCommand, MaterialsHaveTheColoursOfTheSpeciesAndSeason) {
+  const std::string small = " --set levels=2 --set branches[1]=5";
+  ASSERT_EQ(mesh("silver_birch" + small, "birch.obj").exit_code, 0);
+  ASSERT_EQ(mesh("european_larch" + small, "larch.obj").exit_code, 0);
+  ASSERT_EQ(mesh("european_larch --season autumn" + small, "autumn.obj").exit_code, 0);
+  EXPECT_EQ(
+      mesh("european_larch --season winter" + small, "a.obj").out.find(" 0 of leaves") != std::string::npos,
+      true);
+  const std::string birch = read_text_file(path("birch.mtl")), larch = read_text_file(path("larch.mtl"));
+  EXPECT_THAT(diffuse_of(birch, "bark"), testing::StartsWith("Kd 0.8"));
+  EXPECT_NE(diffuse_of(birch, "bark"), diffuse_of(larch, "bark"));
+  EXPECT_EQ(diffuse_of(larch, "bark"), diffuse_of(read_text_file(path("autumn.mtl")), "bark"));
+  EXPECT_NE(diffuse_of(larch, "leaf"), diffuse_of(read_text_file(path("autumn.mtl")), "leaf"));
+}
+
+TEST_F(MeshCommand, SaysAxesAndVolumes) {
+  EXPECT_THAT(mesh(kSmallTree, "a.obj").out, HasSubstr("metres, y is up"));
+  EXPECT_THAT(mesh(kSmallTree + " --up z", "a.obj").out, HasSubstr("metres, z is up"));
+  EXPECT_THAT(mesh(kSmallTree + " --volume", "a.stl").out, HasSubstr("which overlap at joints, is "));
+  const auto json = nlohmann::json::parse(mesh(kSmallTree + " --volume --json", "a.ply").out);
+  EXPECT_EQ(json["up"], "z");
+  EXPECT_GT(json["wood_m3"]["union"], 0);
+  EXPECT_LT(json["wood_m3"]["union"], json["wood_m3"]["sum"]);
+}
+
+TEST_F(MeshCommand, RefusesAxesAndSeasonsThatAreNone) {
+  expect_refused(kSmallTree + " --up x", "a.obj", "--up: got 'x', expected y or z");
+  expect_refused(kSmallTree + " --up z", "a.glb", "expected y, which glTF demands");
+  expect_refused(kSmallTree + " --season fall", "a.glb", "--season: got 'fall', expected one of: summer");
 }
 
 TEST_F(MeshCommand, WritesEveryFormat) {

@@ -56,6 +56,27 @@ std::pair<int, int> png_size(const std::string& bytes) {
   return {number(16), number(20)};
 }
 
+TEST_F(RenderCommand, BackgroundsAndSunAreAsToldAndGroundThatCannotBeSeenIsSaid) {
+  const std::string render = "render palm --size 32 --samples 2 -o '" + path("x.png").string() + "' ";
+  const auto drawn = [&](const std::string& options) {
+    EXPECT_EQ(run_espalier(render + options).exit_code, 0) << options;
+    return read_text_file(path("x.png"));
+  };
+  constexpr std::size_t kColorType = 25;  // of a PNG's header: 6 has alpha
+  EXPECT_EQ(drawn("--background transparent").at(kColorType), 6);
+  EXPECT_EQ(drawn("--background white").at(kColorType), 2);
+  EXPECT_NE(drawn("--background white"), drawn(""));
+  EXPECT_NE(drawn("--sun 60,20"), drawn(""));
+  EXPECT_EQ(drawn("--sun -50,42"), drawn(""));
+  EXPECT_NE(run_espalier(render + "--ground").err.find("--ground has no effect: "), std::string::npos);
+  EXPECT_EQ(run_espalier(render + "--ground --elevation 10").err, "");
+  EXPECT_EQ(run_espalier(render + "--ground --perspective").err, "");
+  expect_refused("render palm --background pink",
+                 "--background: got 'pink', expected sky, white or transparent");
+  expect_refused("render palm --sun 10,-5", "--sun: got '10,-5', expected azimuth,elevation");
+  expect_refused("render palm --sun noon", "--sun: got 'noon'");
+}
+
 TEST_F(RenderCommand, MaskWritesWhatTheRendererDraws) {
   ASSERT_EQ(run_espalier("mask palm --seed 3 --size 96x128 -o '" + path("x.png").string() + "'").exit_code,
             0);

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include <espalier/models/grow_preset.h>
 #include <espalier/models/preset.h>
 
 #include "support/run_espalier.h"
@@ -23,6 +24,14 @@ void expect_refused(const std::string& content, const std::string& message) {
   expect_one_clear_error(run);
   EXPECT_THAT(run.err, HasSubstr(message));
   fs::remove_all(folder);
+}
+
+TEST(SpeciesCommand, TheHeightOfOneTreeIsThatOfTheTreeThatGrows) {
+  const fs::path folder = fresh_folder("one_tree");
+  std::ofstream(folder / "one.toml") << "extends = \"palm\"\nseed = 3\ng_scale = 10\ng_scale_v = 0\n";
+  const std::string out = run_espalier("species --check '" + (folder / "one.toml").string() + "'").out;
+  const Bounds box = bounds(grow_preset(load_preset((folder / "one.toml").string()), "one"));
+  EXPECT_THAT(out, HasSubstr(fmt::format(", height {:.2f} m\n", box.upper.z - box.lower.z)));
 }
 
 TEST(SpeciesCommand, ListsAsJson) {

@@ -28,6 +28,19 @@ TEST(Seasons, ChangeTheColourOfLeaves) {
   EXPECT_GT(spring.g, summer.g) << "young leaves are bright";
 }
 
+TEST(Colors, OfASpeciesAreThoseOfItsBarkAndLeaves) {
+  const PlantColors larch{{200, 200, 190, true}, {60, 120, 40, true}, {224, 176, 48, true}};
+  ShadedSettings summer, autumn, plain;
+  apply_colors(larch, "summer", summer);
+  apply_colors(larch, "autumn", autumn);
+  apply_colors({}, "autumn", plain);
+  EXPECT_GT(summer.bark.x, ShadedSettings{}.bark.x);
+  EXPECT_GT(summer.leaf.y, summer.leaf.x);
+  EXPECT_GT(autumn.leaf.x, autumn.leaf.y);
+  EXPECT_EQ(plain.leaf, ShadedSettings{}.leaf);
+  EXPECT_EQ(plain.bark, ShadedSettings{}.bark);
+}
+
 TEST(Seasons, SummerIsAsTheModelGrows) {
   Plant plant = random_tree(10, 40, 1);
   const std::size_t leaves = plant.leaves.size();

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <cmath>
+
 #include <espalier/render/embree/embree_renderer.h>
 #include <espalier/render/shading/shaded.h>
 #include <espalier/render/silhouette.h>
@@ -49,6 +51,37 @@ TEST(Shaded, CoversTheSilhouetteAndNothingElse) {
       missing += mask.get(x, y) && is_white;
     }
   EXPECT_LE(missing, 1u);  // specks that fall between the samples of a pixel
+}
+
+/// The picture of a cut-out on white: covers are shares of light, not of sRGB's numbers.
+int on_white(std::uint8_t srgb, std::uint8_t cover) {
+  const auto to_light = [](double c) {
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  };
+  const auto to_srgb = [](double c) {
+    return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+  };
+  const double share = cover / 255.0;
+  return static_cast<int>(std::lround(255 * to_srgb(share * to_light(srgb / 255.0) + 1 - share)));
+}
+
+TEST(Shaded, ACutOutOnWhiteIsThePictureBeforeWhite) {
+  const Plant plant = random_tree(60, 400, 1);
+  const Camera camera = camera_of(plant, 48);
+  ShadedSettings settings;
+  settings.background_top = settings.background_bottom = {1, 1, 1};
+  const Picture before_white = render_shaded(plant, camera, settings);
+  const CutOut cut = render_cut_out(plant, camera, settings);
+  std::size_t open = 0, covered = 0;
+  for (std::size_t i = 0; i < cut.cover.size(); ++i) {
+    open += cut.cover[i] == 0;
+    covered += cut.cover[i] > 0;
+    const Rgb a = before_white.pixels[i], b = cut.picture.pixels[i];
+    EXPECT_NEAR(a.r, on_white(b.r, cut.cover[i]), 3) << i;
+    EXPECT_NEAR(a.b, on_white(b.b, cut.cover[i]), 3) << i;
+  }
+  EXPECT_GT(open, 100u);
+  EXPECT_GT(covered, 100u);
 }
 
 TEST(Shaded, WhatStandsBetweenSunAndLeafDarkensIt) {
