@@ -71,6 +71,7 @@ TEST_F(RenderCommand, BackgroundsAndSunAreAsToldAndGroundThatCannotBeSeenIsSaid)
   EXPECT_NE(run_espalier(render + "--ground").err.find("--ground has no effect: "), std::string::npos);
   EXPECT_EQ(run_espalier(render + "--ground --elevation 10").err, "");
   EXPECT_EQ(run_espalier(render + "--ground --perspective").err, "");
+  fs::remove(path("x.png"));
   expect_refused("render palm --background pink",
                  "--background: got 'pink', expected sky, white or transparent");
   expect_refused("render palm --sun 10,-5", "--sun: got '10,-5', expected azimuth,elevation");
