@@ -64,7 +64,8 @@ void check_new_directory(const std::filesystem::path& directory);
 /// Throws InputError unless it holds a run that can go on.
 void check_run_directory(const std::filesystem::path& directory);
 
-/// Makes the directory and writes the pictures, run.toml and the target masks. Throws InputError where it cannot.
+/// Makes the directory and writes the pictures, run.toml and the target masks. Throws InputError where it
+/// cannot.
 void begin_run_directory(const std::filesystem::path& directory, const RunState& state);
 
 /// Draws the best candidate, counts where Embree disagrees, and replaces all files but the log.

@@ -243,7 +243,7 @@ std::string refused_value(const std::string& complaint) {
 std::string explain_error(const CLI::App& command, const CLI::ParseError& error) {
   const std::string message = error.what();
   if (dynamic_cast<const CLI::RequiredError*>(&error))
-    if (const std::string missing = missing_option(command); !missing.empty()) return missing;
+    if (std::string missing = missing_option(command); !missing.empty()) return missing;
   constexpr std::string_view kConversion = "Could not convert: ";
   if (message.starts_with(kConversion)) {
     const std::string rest = message.substr(kConversion.size());

@@ -128,6 +128,7 @@ BorderColors border_colors(const DecodedPicture& picture, const Mask& shown) {
   const std::vector<PixelPlace> places = places_of_border(shown);
   if (places.empty()) return border;
   std::vector<ColorValue> colors;
+  colors.reserve(places.size());
   for (const PixelPlace& place : places) colors.push_back(color_of(picture.at(place.x, place.y)));
   tell_one_color(colors, border);
   std::vector<float> scratch;

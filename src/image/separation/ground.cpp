@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <deque>
 
@@ -33,7 +34,7 @@ struct Growth {
     auto& kept = colors[index(x, y)];
     for (int c = 0; c < 3; ++c) {
       const float mixed = expected[c] + follow * (color[c] - expected[c]);
-      kept[c] = static_cast<std::uint16_t>(std::clamp(mixed, 0.0f, 1.0f) * 65535 + 0.5f);
+      kept[c] = static_cast<std::uint16_t>(std::lround(std::clamp(mixed, 0.0f, 1.0f) * 65535));
     }
     tolerances[index(x, y)] = tolerance;
     reached.set(x, y);
