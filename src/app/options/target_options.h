@@ -11,8 +11,8 @@ class App;
 
 namespace espalier {
 
-/// Adds --separation, --tree-side, --speck and --fill-pinholes; the options are filled in when `command` is
-/// parsed.
+/// Adds those of the options of a fit that say how its picture is read, by the same names; they are filled in
+/// when `command` is parsed.
 std::shared_ptr<TargetOptions> add_target_options(CLI::App& command);
 
 }  // namespace espalier

@@ -34,6 +34,7 @@ Separation separate_by_ground(const DecodedPicture& picture, const Mask& shown, 
   Separation separation;
   const float rounding = mixture.is_soft ? 0 : kRounding;
   separation.mask = both(above(coverage, options.threshold - rounding), shown);
+  separation.mask = either(separation.mask, ground.claimed);
   if (options.side == TreeSide::dark) separation.mask = without(shown, separation.mask);
   const auto [red, green, blue] = options.ground_color.value_or(border.color);
   const std::string of_ground =
