@@ -20,8 +20,8 @@ using testing::HasSubstr;
 FitRecord full_record() {
   FitRecord record;
   record.views = {{"/pictures/a \"tree\".png", {}}, {"/b.png", {90, -12.5, Projection::perspective, 30}}};
-  record.target.method = SeparationMethod::luminance;
-  record.target.side = TreeSide::dark;
+  record.target.separation.method = SeparationMethod::luminance;
+  record.target.separation.side = TreeSide::dark;
   record.target_hash = "0123456789abcdef";
   record.objective = "iou";
   record.fit_seeds = 3;
@@ -171,7 +171,7 @@ TEST(FitRecord, OfTheFirstVersionIsReadAsItWasMeant) {
   EXPECT_EQ(record.seed, 7u);
   EXPECT_EQ(record.kind, KindChoice::any);
   EXPECT_FALSE(record.target.one_tree);
-  EXPECT_EQ(record.target.side, TreeSide::dark);
+  EXPECT_EQ(record.target.separation.side, TreeSide::dark);
   EXPECT_EQ(record.budget.branch_rounds, 0);
   EXPECT_EQ(record.budget.finish_from, kLastShare);
   EXPECT_EQ(record.stages, FitStages{});
