@@ -276,7 +276,7 @@ std::vector<FitOption> options_of_the_picture() {
        .since = "0.2",
        .before = std::string()},
       {.field = "target.label",
-       .key = "target.label",
+       .key = "target.tree_label",
        .option = "label",
        .member = [](FitRecord& record) -> std::string& { return record.target.hints.label; },
        .expected = "numbers or #RRGGBB, with commas between",

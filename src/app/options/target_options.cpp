@@ -39,7 +39,8 @@ std::shared_ptr<TargetOptions> add_target_options(CLI::App& command) {
   const auto record = std::make_shared<FitRecord>();
   record->target = TargetOptions{};
   for (const FitOption& option : fit_options())
-    if (is_of_reading(option)) add_row(command, option, record);
+    if (is_of_reading(option) && !command.get_option_no_throw(option_of(std::string(option.field))))
+      add_row(command, option, record);
   return {record, &record->target};
 }
 

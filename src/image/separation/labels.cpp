@@ -189,7 +189,9 @@ std::optional<Code> code_named(const LabelPicture& picture, std::string_view wor
   if (is_color || picture.is_grey) return value;
   if (value >= picture.palette.size()) return std::nullopt;
   const auto& [red, green, blue] = picture.palette[value];
-  return static_cast<Code>(red << 16 | green << 8 | blue);
+  const auto code = static_cast<Code>(red << 16 | green << 8 | blue);
+  // Palettes are filled up with black: such a number is none of the picture's.
+  return number_of(picture, code) == value ? std::optional(code) : std::nullopt;
 }
 
 std::vector<Code> codes_named(const LabelPicture& picture, const std::string& label,

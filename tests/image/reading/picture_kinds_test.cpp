@@ -210,7 +210,7 @@ Samples label_picture_of(const std::vector<float>& tree, const std::vector<float
   for (int y = 0; y < kSidePx; ++y)
     for (int x = 0; x < kSidePx; ++x)
       for (int c = 0; c < labels.channels; ++c)
-        labels.at(x, y, c) = cover_of_tree()[y * kSidePx + x] > .5f ? tree[c] : y > 180 ? other[c] : 0;
+        labels.at(x, y, c) = cover_of_tree()[y * kSidePx + x] >= .5f ? tree[c] : y > 180 ? other[c] : 0;
   return labels;
 }
 
