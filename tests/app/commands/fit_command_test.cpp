@@ -194,7 +194,8 @@ TEST(FitCommand, ResumeTakesTheOptionsThatARunMayChange) {
     const bool flag = type_of(option) == ValueType::flag;
     const std::string given = fmt::format(" --{}{}", option.option, flag ? "" : " 1");
     const ProgramRun resumed = run_espalier("fit --resume /nowhere" + given);
-    EXPECT_EQ(resumed.err.find("expected one of the two") == std::string::npos, option.resumable) << resumed.err;
+    EXPECT_EQ(resumed.err.find("expected one of the two") == std::string::npos, option.resumable)
+        << resumed.err;
     EXPECT_THAT(run_espalier("fit --repeat /nowhere" + given).err, HasSubstr("expected one of the two"));
   }
 }

@@ -101,7 +101,8 @@ TEST(Program, NamesOfOtherVersionsAndCommandsAreTaken) {
            {"compare", "a.png", "b.png", "--method=alpha", "--side", "dark"},
            {"fit", "a.png", "--method", "alpha", "--side", "dark", "--set", "levels=2", "--out", "b"},
            {"render", "nothing.toml", "--out", "a.png"}})
-    EXPECT_THAT(run(words).err, testing::ContainsRegex("(a.png|nothing.toml): (there is )?no such file")) << words[0];
+    EXPECT_THAT(run(words).err, testing::ContainsRegex("(a.png|nothing.toml): (there is )?no such file"))
+        << words[0];
 }
 
 TEST(Program, HelpNamesEveryCommandAndExitsWith0) {
