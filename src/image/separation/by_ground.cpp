@@ -47,8 +47,8 @@ Separation separate_by_ground(const DecodedPicture& picture, const Mask& shown, 
       clear_share(coverage, options.threshold) * std::min(1.0, ground.border_share / kDoubtfulBorder);
   if (ground.border_share < kDoubtfulBorder)
     separation.warnings.push_back(
-        fmt::format("only {:.0f} % of the border shows a ground: the mask may be wrong (--region, "
-                    "--seed-ground or --ground-color tell it)",
+        fmt::format("only {:.0f} % of the border shows a ground: the mask may be wrong "
+                    "(--separation alpha or luminance reads it another way)",
                     100 * ground.border_share));
   return separation;
 }
