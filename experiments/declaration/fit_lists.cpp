@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <espalier/core/data_path.h>
+#include <espalier/core/near_name.h>
 #include <espalier/core/parameter_table.h>
 #include <espalier/experiments/declaration/experiment_keys.h>
 #include <espalier/experiments/declaration/fit_lists.h>

@@ -1,5 +1,6 @@
 // The optimisers by name.
 #include <espalier/core/error.h>
+#include <espalier/core/near_name.h>
 #include <espalier/core/parameter_table.h>
 #include <espalier/fitting/optimizers/methods.h>
 

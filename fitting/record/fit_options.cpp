@@ -9,6 +9,8 @@
 #include <espalier/fitting/record/species_components.h>
 #include <espalier/fitting/record/start_names.h>
 #include <espalier/image/measures/objective.h>
+#include <espalier/image/reading/picture_hints.h>
+#include <espalier/image/separation/hints.h>
 #include <espalier/models/models.h>
 
 namespace espalier {
@@ -30,6 +32,10 @@ void check_objective(const FitRecord& record) {
   } catch (const InputError& error) {
     throw_input_error("got '{}', expected a weighted sum of measures ({})", record.objective, error.what());
   }
+}
+
+void check_color(const std::string& text) {
+  if (!text.empty()) parse_hinted_color(text);
 }
 
 void check_space(const FitRecord& record) { parse_search_space(record.space); }
@@ -161,15 +167,18 @@ std::vector<FitOption> options_of_the_target() {
        .help = "auto, light or dark"},
       {.field = "target.speck_px",
        .key = "target.speck_px",
+       .option = "speck",
        .member = [](FitRecord& record) -> int& { return record.target.speck_px; },
        .unit = "px",
        .lower = -1,
        .upper = 1e6,
-       .help = "loose pieces under this many pixels of the picture are dropped; -1: by its size"},
+       .word = NumberWord{"auto", -1},
+       .help = "loose pieces under this many pixels of the picture are dropped (0: none; auto: by its size)"},
       {.field = "target.fill_pinholes",
        .key = "target.fill_pinholes",
+       .option = "fill-pinholes",
        .member = [](FitRecord& record) -> bool& { return record.target.fill_pinholes; },
-       .help = "holes under the size of specks are filled"},
+       .help = "fill holes under the size of specks"},
       {.field = "target.one_tree",
        .key = "target.one_tree",
        .option = "all-trees",
@@ -189,6 +198,137 @@ std::vector<FitOption> options_of_the_target() {
        .member = [](FitRecord& record) -> std::string& { return record.target_hash; },
        .help = "of the masks that were fitted: a run goes on with these alone",
        .note = "of the masks that were fitted"},
+  };
+}
+
+/// Whether the rest of a picture's hints parses is seen where the picture is read; these are words alone.
+void check_ground_color(const FitRecord& record) { check_color(record.target.hints.ground_color); }
+void check_tree_color(const FitRecord& record) { check_color(record.target.hints.tree_color); }
+void check_region(const FitRecord& record) {
+  if (!record.target.hints.region.empty()) parse_region(record.target.hints.region);
+}
+void check_tree_seeds(const FitRecord& record) { parse_places(record.target.hints.tree_seeds); }
+void check_ground_seeds(const FitRecord& record) { parse_places(record.target.hints.ground_seeds); }
+void check_keep_marks(const FitRecord& record) { marks_to_leave_out(record.target.hints.keep_marks); }
+void check_scale_bar(const FitRecord& record) { parse_scale_bar(record.target.hints.scale_bar); }
+
+/// What a user may say of a picture where it is read wrongly without.
+std::vector<FitOption> options_of_the_picture() {
+  return {
+      {.field = "target.threshold",
+       .key = "target.threshold",
+       .option = "threshold",
+       .member = [](FitRecord& record) -> double& { return record.target.hints.threshold; },
+       .lower = 0.01,
+       .upper = 0.99,
+       .help = "share of a pixel that the tree covers, from which it is tree; of alpha and tones likewise",
+       .is_written = [](const FitRecord& record) { return record.target.hints.threshold != kHalfCovered; },
+       .since = "0.2",
+       .before = double{kHalfCovered}},
+      {.field = "target.ground_color",
+       .key = "target.ground_color",
+       .option = "ground-color",
+       .member = [](FitRecord& record) -> std::string& { return record.target.hints.ground_color; },
+       .expected = "#RRGGBB, or R,G,B of 0 to 255",
+       .check = check_ground_color,
+       .help = "the ground's colour, #RRGGBB or R,G,B of 0 to 255 (default: what the border shows)",
+       .is_written = [](const FitRecord& record) { return !record.target.hints.ground_color.empty(); },
+       .since = "0.2",
+       .before = std::string()},
+      {.field = "target.tree_color",
+       .key = "target.tree_color",
+       .option = "tree-color",
+       .member = [](FitRecord& record) -> std::string& { return record.target.hints.tree_color; },
+       .expected = "#RRGGBB, or R,G,B of 0 to 255",
+       .check = check_tree_color,
+       .help = "the tree's colour, likewise (default: that of its solid parts)",
+       .is_written = [](const FitRecord& record) { return !record.target.hints.tree_color.empty(); },
+       .since = "0.2",
+       .before = std::string()},
+      {.field = "target.region",
+       .key = "target.region",
+       .option = "region",
+       .member = [](FitRecord& record) -> std::string& { return record.target.hints.region; },
+       .expected = "LEFT,TOP,WIDTH,HEIGHT in pixels",
+       .check = check_region,
+       .help = "the part of the picture that shows the tree: LEFT,TOP,WIDTH,HEIGHT in its pixels",
+       .is_written = [](const FitRecord& record) { return !record.target.hints.region.empty(); },
+       .since = "0.2",
+       .before = std::string()},
+      {.field = "target.tree_seeds",
+       .key = "target.seed_tree",
+       .option = "seed-tree",
+       .member = [](FitRecord& record) -> std::string& { return record.target.hints.tree_seeds; },
+       .expected = "X,Y in pixels, or X,Y;X,Y",
+       .check = check_tree_seeds,
+       .help = "a pixel of the tree, X,Y, or several, X,Y;X,Y: they and what is like them around are tree",
+       .is_written = [](const FitRecord& record) { return !record.target.hints.tree_seeds.empty(); },
+       .since = "0.2",
+       .before = std::string()},
+      {.field = "target.ground_seeds",
+       .key = "target.seed_ground",
+       .option = "seed-ground",
+       .member = [](FitRecord& record) -> std::string& { return record.target.hints.ground_seeds; },
+       .expected = "X,Y in pixels, or X,Y;X,Y",
+       .check = check_ground_seeds,
+       .help = "a pixel of the ground, likewise",
+       .is_written = [](const FitRecord& record) { return !record.target.hints.ground_seeds.empty(); },
+       .since = "0.2",
+       .before = std::string()},
+      {.field = "target.label",
+       .key = "target.tree_label",
+       .option = "label",
+       .member = [](FitRecord& record) -> std::string& { return record.target.hints.label; },
+       .expected = "numbers or #RRGGBB, with commas between",
+       .help = "of a picture of labels, that of the tree: a number or #RRGGBB, several with commas between "
+               "(default: the only one)",
+       .is_written = [](const FitRecord& record) { return !record.target.hints.label.empty(); },
+       .since = "0.2",
+       .before = std::string()},
+      {.field = "target.keep_marks",
+       .key = "target.keep_marks",
+       .option = "keep-marks",
+       .member = [](FitRecord& record) -> std::string& { return record.target.hints.keep_marks; },
+       .expected = "none, all, or some of strips, lines, captions, figures",
+       .check = check_keep_marks,
+       .help = "what beside the tree is not left out: none, all, or some of strips (along the edges), lines "
+               "(of the ground, frames), captions (and scale bars), figures (persons, loose pieces)",
+       .is_written = [](const FitRecord& record) { return record.target.hints.keep_marks != "none"; },
+       .since = "0.2",
+       .before = std::string("none")},
+      {.field = "target.scale_bar",
+       .key = "target.scale_bar",
+       .option = "scale-bar",
+       .member = [](FitRecord& record) -> std::string& { return record.target.hints.scale_bar; },
+       .expected = "PIXELS=METRES",
+       .check = check_scale_bar,
+       .help = "how long a scale bar is: PIXELS=METRES; the tree has the height that it tells",
+       .is_written = [](const FitRecord& record) { return !record.target.hints.scale_bar.empty(); },
+       .since = "0.2",
+       .before = std::string()},
+      {.field = "target.tree",
+       .key = "target.tree",
+       .option = "tree",
+       .member = [](FitRecord& record) -> int& { return record.target.hints.tree; },
+       .lower = 0,
+       .upper = 1000,
+       .zero_is_none = true,
+       .help = "of several trees, this one, counted from 1 as one reads (default: the largest)",
+       .is_written = [](const FitRecord& record) { return record.target.hints.tree != 0; },
+       .since = "0.2",
+       .before = std::int64_t{0}},
+      {.field = "target.frame",
+       .key = "target.frame",
+       .option = "frame",
+       .member = [](FitRecord& record) -> int& { return record.target.hints.frame; },
+       .lower = 0,
+       .upper = 10'000,
+       .zero_is_none = true,
+       .help =
+           "of an animation, or of pages, this one, counted from 1 (default: the first that is not blank)",
+       .is_written = [](const FitRecord& record) { return record.target.hints.frame != 0; },
+       .since = "0.2",
+       .before = std::int64_t{0}},
   };
 }
 
@@ -392,6 +532,7 @@ std::vector<FitOption> options_of_all() {
   for (const Part& part :
        {Part{"What is fitted, and how it is scored", options_of_the_task},
         Part{"How the picture is read", options_of_the_target},
+        Part{"How the picture is read", options_of_the_picture},
         Part{"How long, and how large", options_of_the_budget},
         Part{"Where it starts, and what it does", options_of_the_start},
         Part{"What the tree may be", options_of_the_plant}, Part{"What is searched", options_of_the_search}})

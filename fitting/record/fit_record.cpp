@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <espalier/core/field_error.h>
+#include <espalier/core/near_name.h>
 #include <espalier/core/parameter_table.h>
 #include <espalier/core/toml/toml_section.h>
 #include <espalier/fitting/record/fit_options.h>

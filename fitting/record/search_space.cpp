@@ -5,6 +5,7 @@
 #include <espalier/core/assignment.h>
 #include <espalier/core/curves/parameter_curves.h>
 #include <espalier/core/field_error.h>
+#include <espalier/core/near_name.h>
 #include <espalier/fitting/record/search_space.h>
 
 namespace espalier {

@@ -1,3 +1,7 @@
+#include <fmt/ranges.h>
+
+#include <cmath>
+
 #include <espalier/core/field_error.h>
 #include <espalier/environment/picture_envelope.h>
 #include <espalier/fitting/picture/crown.h>
@@ -28,14 +32,40 @@ void expect_leaves(const FitRecord& record, TreeKind seen, TargetView& view) {
   if (kind == KindChoice::leafy) view.crown = crown_of(view.target.mask(), view.reading, view.labels);
 }
 
+/// What a scale bar tells of the tree's height goes into the record; a height that was given stays.
+void take_height(const TargetPicture& target, FitRecord& record) {
+  constexpr double kSame = 1e-6, kLeastHeight = 0.01, kMostHeight = 200;
+  if (!target.height_m) return;
+  const double height_m = *target.height_m;
+  if (record.height_m && std::abs(*record.height_m - height_m) > kSame * height_m)
+    throw_field_error("target.scale_bar",
+                      "got a tree of {:.3f} m with a height of {} m, expected one of them", height_m,
+                      *record.height_m);
+  if (!(height_m >= kLeastHeight && height_m <= kMostHeight))
+    throw_field_error("target.scale_bar", "got a tree of {:.3f} m, expected {} to {} m", height_m,
+                      kLeastHeight, kMostHeight);
+  record.height_m = height_m;
+}
+
+/// What is wrong with a picture, and what of it was left out.
+std::vector<std::string> remarks_on(const TargetPicture& target, bool took_largest) {
+  std::vector<std::string> remarks = describe(target.faults, took_largest);
+  remarks.insert(remarks.end(), target.warnings.begin(), target.warnings.end());
+  if (!target.left_out.empty())
+    remarks.push_back(
+        fmt::format("left out: {} (--keep-marks keeps them)", fmt::join(target.left_out, "; ")));
+  return remarks;
+}
+
 /// Reads the pictures into the task and their hash into the record.
 void read_views(FitRecord& record, FitTask& task) {
   std::uint64_t hash = 0xcbf29ce484222325ull;
   for (const ViewRecord& view : record.views) {
     const TargetPicture target = read_target(view.file(), record.target);
     hash = hash_target(target, hash);
-    for (const std::string& fault : describe(target.faults, record.target.one_tree))
-      task.warnings.push_back(fmt::format("{}: {}", view.picture.string(), fault));
+    for (const std::string& remark : remarks_on(target, record.target.one_tree))
+      task.warnings.push_back(fmt::format("{}: {}", view.picture.string(), remark));
+    if (&view == &record.views.front()) take_height(target, record);
     task.views.push_back(
         make_target_view(target.mask, target.tree_height_px, view.view, target_height_m(record)));
     TargetView& made = task.views.back();

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <espalier/core/error.h>
+#include <espalier/core/near_name.h>
 #include <espalier/core/parameter_role.h>
 #include <espalier/core/parameter_table.h>
 

@@ -1,31 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 
 #include <espalier/core/assignment.h>
 #include <espalier/core/error.h>
+#include <espalier/core/near_name.h>
 #include <espalier/core/parameter_table.h>
 
 namespace espalier {
 
 namespace {
-
-/// Levenshtein's distance: the fewest single letters to insert, delete or replace.
-std::size_t edit_distance(std::string_view from, std::string_view to) {
-  std::vector<std::size_t> row(to.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < to.size(); ++j) {
-      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
 
 bool is_whole(const ParameterInfo& row) {
   return row.scale == Scale::choice || (row.scale == Scale::integer && !row.relaxable);
@@ -168,18 +152,6 @@ void check_value(const ParameterInfo& row, double value, std::string_view where)
   if (is_valid_value(row, value)) return;
   throw_input_error("{}: key '{}': got {}, expected {}", where, row.full_name(), value,
                     describe_valid_values(row));
-}
-
-std::string closest_name(std::string_view name, std::span<const std::string> known) {
-  std::string closest;
-  std::size_t least = SIZE_MAX;
-  for (const std::string& candidate : known) {
-    // What begins as the candidate does was cut short: one step away.
-    const bool cut_short = name.size() >= 2 && candidate.starts_with(name);
-    const std::size_t distance = cut_short ? 1 : edit_distance(name, candidate);
-    if (distance < least) closest = candidate, least = distance;
-  }
-  return closest;
 }
 
 }  // namespace espalier

@@ -149,7 +149,4 @@ bool is_valid_value(const ParameterInfo& row, double value);
 /// `where` opens the message: a file and line, or the command-line option.
 void check_value(const ParameterInfo& row, double value, std::string_view where);
 
-/// The name in `known` with the smallest edit distance to `name`, for messages.
-std::string closest_name(std::string_view name, std::span<const std::string> known);
-
 }  // namespace espalier

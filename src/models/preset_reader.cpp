@@ -3,6 +3,7 @@
 
 #include <espalier/core/curves/parameter_curves.h>
 #include <espalier/core/error.h>
+#include <espalier/core/near_name.h>
 #include <espalier/core/toml/toml_file.h>
 #include <espalier/models/preset_reader.h>
 

@@ -94,21 +94,6 @@ TEST(CheckValue, RefusesTheNextNumberBeyondEitherEnd) {
   EXPECT_NE(message_for(row, std::nextafter(row.upper, 2)), "");
 }
 
-TEST(ClosestName, IsTheNameItselfWhereItIsKnown) {
-  const std::vector<std::string> known = {"ratio", "ratio_power", "rotate"};
-  for (const std::string& name : known) EXPECT_EQ(closest_name(name, known), name);
-}
-
-TEST(ClosestName, MendsOneWrongLetter) {
-  const std::vector<std::string> known = {"quaking_aspen", "weeping_willow", "palm", "acer"};
-  EXPECT_TRUE(rc::check([&] {
-    std::string name = *rc::gen::elementOf(known);
-    const std::string original = name;
-    name[*rc::gen::inRange<std::size_t>(0, name.size())] = '#';
-    RC_ASSERT(closest_name(name, known) == original);
-  }));
-}
-
 TEST(ParameterTable, PartsThatAPlantLacksAreNotInUse) {
   const ParameterTable table{"test",
                              {{.name = "a"},

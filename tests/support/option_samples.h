@@ -24,7 +24,7 @@ inline std::string number_as_toml(const FitOption& option, double value) {
 
 inline OptionSample sample_of_number(const FitOption& option) {
   const bool is_whole = type_of(option) == ValueType::whole;
-  const double another = option.upper <= 1 ? 0.5 : 17;
+  const double another = option.upper <= 1 ? 0.25 : 17;
   OptionSample sample{is_whole ? OptionValue(static_cast<std::int64_t>(another)) : OptionValue(another),
                       is_whole ? "2.5" : "'many'",
                       {}};
@@ -36,13 +36,24 @@ inline OptionSample sample_of_number(const FitOption& option) {
 
 /// Texts have grammars of their own; a name that nobody has is none of most.
 inline OptionSample sample_of_text(const FitOption& option) {
-  const std::map<std::string_view, std::string> others = {
-      {"model", "small_pine.lsys"},   {"objective", "iou"},
-      {"optimizer", "random_search"}, {"kind", "palm"},
-      {"target.method", "alpha"},     {"target.side", "dark"},
-      {"target.labels", "none"},      {"target_hash", "0123"},
-      {"stages", "search"},           {"start", "palm"},
-      {"space", "species:3"}};
+  const std::map<std::string_view, std::string> others = {{"model", "small_pine.lsys"},
+                                                          {"objective", "iou"},
+                                                          {"optimizer", "random_search"},
+                                                          {"kind", "palm"},
+                                                          {"target.method", "alpha"},
+                                                          {"target.side", "dark"},
+                                                          {"target.labels", "none"},
+                                                          {"target_hash", "0123"},
+                                                          {"target.ground_color", "#102030"},
+                                                          {"target.tree_color", "1,2,3"},
+                                                          {"target.region", "1,2,30,40"},
+                                                          {"target.tree_seeds", "3,4"},
+                                                          {"target.ground_seeds", "3,4;5,6"},
+                                                          {"target.keep_marks", "lines"},
+                                                          {"target.scale_bar", "100=5"},
+                                                          {"stages", "search"},
+                                                          {"start", "palm"},
+                                                          {"space", "species:3"}};
   const auto other = others.find(option.field);
   OptionSample sample{other == others.end() ? "another" : other->second, "7", {}};
   const bool takes_any = option.field == "model" || option.field == "start" || option.field == "target_hash";

@@ -6,10 +6,12 @@
 #include <string>
 
 #include <espalier/app/commands/commands.h>
+#include <espalier/app/commands/target_sheet.h>
 #include <espalier/app/options/target_options.h>
 #include <espalier/app/options/view_options.h>
 #include <espalier/fitting/picture/crown_reading.h>
 #include <espalier/fitting/picture/picture_reading.h>
+#include <espalier/image/pictures/decode.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/image/reading/label_picture.h>
 #include <espalier/image/reading/read_target.h>
@@ -19,8 +21,11 @@ namespace espalier {
 namespace {
 
 struct TargetPaths {
-  std::string image, output, labels;
+  std::string image, output, labels = "auto", sheet;
   bool all_trees = false;
+
+  /// --labels names a picture to write, where it is no choice.
+  bool writes_labels() const { return labels != "auto" && labels != "none"; }
 };
 
 std::string stand_in_words(const PictureReading& reading) {
@@ -39,23 +44,32 @@ std::string reading_in_words(const PictureReading& reading) {
 }
 
 void run_target(const TargetPaths& paths, const TargetOptions& options) {
-  if (!paths.labels.empty()) check_png_path(paths.labels);
+  if (paths.writes_labels()) check_png_path(paths.labels);
+  if (!paths.sheet.empty()) check_png_path(paths.sheet);
   const TargetPicture target = read_target(paths.image, options);
   write_mask_png(paths.output, target.mask);
-  if (!paths.labels.empty()) write_png(paths.labels, label_picture(target.mask, target.labels));
+  if (paths.writes_labels()) write_png(paths.labels, label_picture(target.mask, target.labels));
+  if (!paths.sheet.empty())
+    write_png(paths.sheet, target_sheet(decode_picture(paths.image, options.hints.frame), target));
   const double share = static_cast<double>(area_px(target.mask)) / options.size_px / options.size_px;
   fmt::print("{}: {}\n", paths.image, target.how);
   for (const std::string& fault : describe(target.faults, options.one_tree))
     fmt::print(stderr, "espalier: warning: {}: {}\n", paths.image, fault);
+  for (const std::string& warning : target.warnings)
+    fmt::print(stderr, "espalier: warning: {}: {}\n", paths.image, warning);
+  for (const std::string& mark : target.left_out) fmt::print("{}: left out: {}\n", paths.image, mark);
+  fmt::print("{}: confidence {:.2f}\n", paths.image, target.confidence);
   fmt::print("{}: {}×{} px, the tree is {:.1f} px tall and covers {:.1f} %\n", paths.output, options.size_px,
              options.size_px, target.tree_height_px, 100 * share);
   PictureReading reading = read_picture(target.mask);
   reading.kind = kind_with_labels(reading.kind, target.labels);
   fmt::print("{}: {}\n", paths.output, reading_in_words(reading));
+  if (target.height_m)
+    fmt::print("{}: by its scale bar the tree is {:.2f} m tall\n", paths.image, *target.height_m);
   if (reading.kind == TreeKind::leafy)
     fmt::print("{}: its crown, were it 10 m tall: {}\n", paths.output,
                crown_text(read_crown(target.mask, reading), 10));
-  fmt::print("{}: {}\n", paths.image, target.labels.how);
+  if (!target.labels.how.empty()) fmt::print("{}: {}\n", paths.image, target.labels.how);
 }
 
 }  // namespace
@@ -69,9 +83,16 @@ void add_target_command(CLI::App& app) {
   command->add_option("--size", options->size_px, "side of the square mask in pixels")->capture_default_str();
   command->add_flag("--all-trees", paths->all_trees,
                     "show several trees of a picture as one (default: the largest alone)");
-  command->add_option("--labels", paths->labels, "a picture (PNG) of leaves, wood and what is in doubt");
+  command
+      ->add_option(
+          "--labels", paths->labels,
+          "auto or none, as in a fit, or a picture (PNG) to write of leaves, wood and what is in doubt")
+      ->capture_default_str();
+  command->add_option(
+      "--sheet", paths->sheet,
+      "also write a PNG: the picture, its tree and what was left out (orange), the mask, the labels");
   command->callback([paths, options] {
-    options->labels = LabelChoice::automatic;
+    options->labels = paths->labels == "none" ? LabelChoice::none : LabelChoice::automatic;
     options->one_tree = !paths->all_trees;
     run_target(*paths, *options);
   });

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include <espalier/app/main/near_name.h>
 #include <espalier/app/main/wrong_words.h>
+#include <espalier/core/near_name.h>
 
 namespace espalier {
 
@@ -112,14 +112,15 @@ std::string whose_option(const CLI::App& command, const std::string& name) {
 }
 
 std::string wrong_option(const CLI::App& command, const std::string& name) {
-  const std::string head = fmt::format("{}got '{}', which is no option of {}", place(command), name,
-                                       command.get_parent() ? command.get_name() : "the program");
+  const std::string head =
+      fmt::format("{}got '{}', which is no option of {}{}", place(command), name,
+                  command.get_parent() ? command.get_name() : "the program", whose_option(command, name));
   const std::vector<std::string> known = option_names(command);
   auto meant = other_word(kOtherOptions, name, known);
   if (!meant && !name.starts_with("--")) meant = near_name("-" + name, known);
   if (!meant && name.starts_with("--")) meant = near_name(name, known);
   if (meant) return fmt::format("{}: did you mean {}?{}", head, *meant, see_help(command));
-  return head + whose_option(command, name) + see_help(command);
+  return head + see_help(command);
 }
 
 std::string word_too_many(const CLI::App& command, const std::string& word) {

@@ -1,36 +1,47 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include <espalier/app/options/option_names.h>
 #include <espalier/app/options/target_options.h>
-#include <espalier/core/field_error.h>
+#include <espalier/fitting/record/fit_options.h>
+#include <espalier/fitting/record/option_values.h>
 
 namespace espalier {
 
+namespace {
+
+/// Sizes, trees and labels are for the commands to say: not all of them look at these.
+bool is_of_reading(const FitOption& option) {
+  const bool is_of_target = option.field.starts_with("target.") && !option.option.empty();
+  return is_of_target && option.field != "target.size_px" && option.field != "target.one_tree" &&
+         option.field != "target.labels";
+}
+
+void add_row(CLI::App& command, const FitOption& option, const std::shared_ptr<FitRecord>& record) {
+  const auto set = [&option, record](const std::string& word) {
+    set_from_words(option, {word}, *record);
+    check_option(option, *record);
+  };
+  if (type_of(option) == ValueType::flag) {
+    command.add_flag_callback(
+        option_of(std::string(option.field)), [set] { set("true"); }, option.help);
+    return;
+  }
+  const std::string words = to_words(get_value(option, *record));
+  const bool is_none = option.zero_is_none && words == "0";
+  command.add_option_function<std::string>(option_of(std::string(option.field)), set, option.help)
+      ->default_str(is_none ? "" : words);
+}
+
+}  // namespace
+
 std::shared_ptr<TargetOptions> add_target_options(CLI::App& command) {
-  auto options = std::make_shared<TargetOptions>();
-  command
-      .add_option_function<std::string>(
-          "--separation",
-          [options](const std::string& text) {
-            options->separation.method =
-                in_field("separation", [&] { return parse_name<SeparationMethod>(text); });
-          },
-          "what tells the tree from the background: auto, alpha, luminance, background")
-      ->default_str("auto");
-  command
-      .add_option_function<std::string>(
-          "--tree-side",
-          [options](const std::string& text) {
-            options->separation.side = in_field("tree_side", [&] { return parse_name<TreeSide>(text); });
-          },
-          "which side of the threshold is the tree: auto, light (opaque), dark (transparent)")
-      ->default_str("auto");
-  command
-      .add_option("--speck", options->speck_px,
-                  "drop loose pieces under this many pixels of the picture (0: none; by default by its size)")
-      ->check(CLI::Range(0, 1'000'000));
-  command.add_flag("--fill-pinholes", options->fill_pinholes, "fill holes under the speck size");
-  return options;
+  const auto record = std::make_shared<FitRecord>();
+  record->target = TargetOptions{};
+  for (const FitOption& option : fit_options())
+    if (is_of_reading(option) && !command.get_option_no_throw(option_of(std::string(option.field))))
+      add_row(command, option, record);
+  return {record, &record->target};
 }
 
 }  // namespace espalier

@@ -11,8 +11,9 @@ class App;
 
 namespace espalier {
 
-/// Adds --separation, --tree-side, --speck and --fill-pinholes; the options are filled in when `command` is
-/// parsed.
+/// Adds those of the options of a fit that say how its picture is read, by the same names; they are filled in
+/// when `command` is parsed. A name that the command has already, such as --frame of `compare`, stays its
+/// own.
 std::shared_ptr<TargetOptions> add_target_options(CLI::App& command);
 
 }  // namespace espalier

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <espalier/core/error.h>
+#include <espalier/core/near_name.h>
 #include <espalier/core/parameter_table.h>
 #include <espalier/core/toml/toml_section.h>
 

@@ -14,6 +14,7 @@ struct PictureLayout {
   int red = -1, green = -1, blue = -1, alpha = -1;  ///< channels by name; -1: the file names none
   int orientation = 1;                              ///< EXIF's, 1 to 8
   int tile_rows = 0;                                ///< read as many at once; 0: any number
+  int bits = 0;  ///< of a sample that is a whole number: 8 or 16; 0: it is none
 };
 
 class PictureInput {
@@ -44,8 +45,12 @@ struct EncodedPicture {
 class PictureCodecs {
  public:
   virtual ~PictureCodecs() = default;
-  /// Null, and `error` says why, where the file is no picture that can be read.
-  virtual std::unique_ptr<PictureInput> open(const std::string& path, std::string& error) const = 0;
+  /// A frame of an animation, or a page, counted from 0. Null, and `error` says why, where the file is no
+  /// picture that can be read or has no such frame.
+  virtual std::unique_ptr<PictureInput> open(const std::string& path, int frame,
+                                             std::string& error) const = 0;
+  /// Of a file that can be opened.
+  virtual int count_frames(const std::string& path) const = 0;
   /// A PNG of 1, 3 or 4 channels of 8 bits (sRGB, opacity not multiplied in); `name` is for messages.
   virtual EncodedPicture encode_png(const std::string& name, int width_px, int height_px, int channels,
                                     const std::uint8_t* samples) const = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <espalier/core/error.h>
+#include <espalier/core/near_name.h>
 #include <espalier/core/parameter_table.h>
 #include <espalier/image/measures/compare.h>
 #include <espalier/image/measures/objective.h>

@@ -10,6 +10,17 @@ namespace espalier {
 
 namespace {
 
+/// 0 for samples that are no whole numbers of 8 or 16 bits.
+int bits_of(const OIIO::TypeDesc& format) {
+  if (format == OIIO::TypeDesc::UINT8) return 8;
+  return format == OIIO::TypeDesc::UINT16 ? 16 : 0;
+}
+
+/// GIF's reader says that alpha is behind the last channel.
+int alpha_of(const OIIO::ImageSpec& spec) {
+  return spec.alpha_channel < spec.nchannels ? spec.alpha_channel : spec.channelindex("A");
+}
+
 PictureLayout layout_of(const OIIO::ImageSpec& spec) {
   return {.width_px = spec.width,
           .height_px = spec.height,
@@ -18,15 +29,21 @@ PictureLayout layout_of(const OIIO::ImageSpec& spec) {
           .red = spec.channelindex("R"),
           .green = spec.channelindex("G"),
           .blue = spec.channelindex("B"),
-          .alpha = spec.alpha_channel < spec.nchannels ? spec.alpha_channel : -1,
+          .alpha = alpha_of(spec),
           .orientation = spec.get_int_attribute("Orientation", 1),
-          .tile_rows = spec.tile_width == 0 ? 0 : spec.tile_height};
+          .tile_rows = spec.tile_width == 0 ? 0 : spec.tile_height,
+          .bits = bits_of(spec.format)};
 }
+
+constexpr int kMostFrames = 10'000;
 
 class FileInput : public PictureInput {
  public:
   explicit FileInput(std::unique_ptr<OIIO::ImageInput> input)
-      : input_(std::move(input)), spec_(input_->spec()), layout_(layout_of(spec_)) {}
+      : input_(std::move(input)),
+        spec_(input_->spec()),
+        frame_(input_->current_subimage()),
+        layout_(layout_of(spec_)) {}
 
   const PictureLayout& layout() const override { return layout_; }
 
@@ -40,17 +57,18 @@ class FileInput : public PictureInput {
 
  private:
   bool read_scanlines(int begin, int end, float* samples) {
-    return input_->read_scanlines(0, 0, spec_.y + begin, spec_.y + end, spec_.z, 0, spec_.nchannels,
+    return input_->read_scanlines(frame_, 0, spec_.y + begin, spec_.y + end, spec_.z, 0, spec_.nchannels,
                                   OIIO::TypeDesc::FLOAT, samples);
   }
 
   bool read_tiles(int begin, int end, float* samples) {
-    return input_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, spec_.y + begin, spec_.y + end, spec_.z,
-                              spec_.z + 1, 0, spec_.nchannels, OIIO::TypeDesc::FLOAT, samples);
+    return input_->read_tiles(frame_, 0, spec_.x, spec_.x + spec_.width, spec_.y + begin, spec_.y + end,
+                              spec_.z, spec_.z + 1, 0, spec_.nchannels, OIIO::TypeDesc::FLOAT, samples);
   }
 
   std::unique_ptr<OIIO::ImageInput> input_;
   OIIO::ImageSpec spec_;
+  int frame_;
   PictureLayout layout_;
 };
 
@@ -88,11 +106,19 @@ class GifOutput : public AnimationOutput {
 
 class OpenImageIoCodecs : public PictureCodecs {
  public:
-  std::unique_ptr<PictureInput> open(const std::string& path, std::string& error) const override {
+  std::unique_ptr<PictureInput> open(const std::string& path, int frame, std::string& error) const override {
     auto input = OIIO::ImageInput::open(path);
-    if (input) return std::make_unique<FileInput>(std::move(input));
-    error = OIIO::geterror();
+    if (input && (frame == 0 || input->seek_subimage(frame, 0)))
+      return std::make_unique<FileInput>(std::move(input));
+    error = input ? "it has no such frame" : OIIO::geterror();
     return nullptr;
+  }
+
+  int count_frames(const std::string& path) const override {
+    const auto input = OIIO::ImageInput::open(path);
+    int frames = 0;
+    while (input && frames < kMostFrames && input->seek_subimage(frames, 0)) ++frames;
+    return frames;
   }
 
   EncodedPicture encode_png(const std::string& name, int width_px, int height_px, int channels,

@@ -9,7 +9,9 @@
 #include <espalier/image/codecs/codecs.h>
 #include <espalier/image/pictures/claimed_size.h>
 #include <espalier/image/pictures/decode.h>
+#include <espalier/image/pictures/file_chunks.h>
 #include <espalier/image/pictures/jpeg_end.h>
+#include <espalier/image/pictures/plain_name.h>
 #include <espalier/image/pictures/quiet_stderr.h>
 
 namespace espalier {
@@ -19,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMaxPixelsPerByte = 10'000;
+constexpr int kMostBlankFrames = 100;  ///< that are looked at
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -34,9 +37,16 @@ void check_is_file(const fs::path& path) {
   if (is_jpeg_without_end(path)) throw_input_error("{}: is a JPEG that was cut off", path.string());
 }
 
-std::unique_ptr<PictureInput> open_picture(const fs::path& path) {
+/// `name`: under which the library finds the path.
+std::unique_ptr<PictureInput> open_picture(const fs::path& path, const fs::path& name, int frame) {
   std::string reason;
-  auto input = picture_codecs().open(path.string(), reason);
+  auto input = picture_codecs().open(name.string(), frame, reason);
+  if (!input && frame > 0) {
+    const int frames = picture_codecs().count_frames(name.string());
+    if (frames > 0)
+      throw_input_error("{}: got frame {}, expected 1{}", path.string(), frame + 1,
+                        frames > 1 ? fmt::format(" to {}", frames) : ": it has no other");
+  }
   if (!input) throw_input_error("{}: is no picture that can be read ({})", path.string(), first_line(reason));
   return input;
 }
@@ -139,6 +149,8 @@ DecodedPicture read_pixels(PictureInput& input, const fs::path& path) {
   }
   DecodedPicture picture = std::move(average).finish();
   picture.has_alpha = channels[3] >= 0;
+  picture.bits = layout.bits;
+  picture.is_grey = channels[0] == channels[1] && channels[1] == channels[2];
   return picture;
 }
 
@@ -160,15 +172,45 @@ DecodedPicture turn_upright(DecodedPicture picture, int orientation) {
   return upright;
 }
 
+DecodedPicture read_frame(const fs::path& path, const fs::path& name, int frame) {
+  const auto input = open_picture(path, name, frame);
+  const PictureLayout& layout = input->layout();
+  check_size(path, layout);
+  const int orientation = layout.orientation == 1 ? webp_orientation(path) : layout.orientation;
+  return turn_upright(read_pixels(*input, path), orientation);
+}
+
+/// All of one colour, or transparent.
+bool is_blank(const DecodedPicture& picture) {
+  return std::all_of(picture.pixels.begin(), picture.pixels.end(),
+                     [&](const Rgba& pixel) { return pixel == picture.pixels.front(); });
+}
+
+/// The first frame that shows something; where none does, the picture stays.
+void skip_blank_frames(const fs::path& path, const fs::path& name, DecodedPicture& picture) {
+  const int frames = std::min(picture_codecs().count_frames(name.string()), kMostBlankFrames);
+  for (int frame = 1; frame < frames; ++frame) {
+    DecodedPicture next = read_frame(path, name, frame);
+    if (is_blank(next)) continue;
+    picture = std::move(next);
+    picture.frame = frame + 1;
+    picture.blank_frames = frame;
+    return;
+  }
+}
+
 }  // namespace
 
-DecodedPicture decode_picture(const fs::path& path) try {
+DecodedPicture decode_picture(const fs::path& path, int frame) try {
   const QuietStderr quiet;
   check_is_file(path);
   if (const auto claimed = claimed_size(path)) check_size(path, claimed->width_px, claimed->height_px, 1);
-  const auto input = open_picture(path);
-  check_size(path, input->layout());
-  return turn_upright(read_pixels(*input, path), input->layout().orientation);
+  const PlainName name(path);
+  DecodedPicture picture = read_frame(path, name.path(), std::max(0, frame - 1));
+  picture.frame = std::max(1, frame);
+  if (frame == 0 && is_blank(picture)) skip_blank_frames(path, name.path(), picture);
+  picture.palette = png_palette(path);
+  return picture;
 } catch (const std::bad_alloc&) {
   throw_input_error("{}: needs more memory than there is", path.string());
 } catch (const std::length_error&) {  // sizes that a reader did not check

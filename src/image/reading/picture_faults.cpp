@@ -63,6 +63,64 @@ void find_cuts(const Mask& mask, PictureFaults& faults) {
       !is_spread_foot(mask, height);
 }
 
+/// Trees in rows, from the upper left as one reads.
+using TreeRows = std::vector<std::vector<Mask>>;
+
+using BoxedTree = std::pair<MaskBox, const Mask*>;
+
+/// Rows of trees that stand equally low, the upper first; empty where they do not stand in rows.
+std::vector<std::vector<BoxedTree>> grouped_in_rows(std::vector<BoxedTree> trees) {
+  std::sort(trees.begin(), trees.end(),
+            [](const BoxedTree& a, const BoxedTree& b) { return a.first.bottom < b.first.bottom; });
+  std::vector<std::vector<BoxedTree>> rows;
+  int row_bottom = 0;
+  for (const BoxedTree& tree : trees) {
+    const MaskBox& box = tree.first;
+    if (rows.empty() || box.top >= row_bottom) {
+      rows.emplace_back();
+      row_bottom = box.bottom;
+    } else if (box.bottom - row_bottom > kFootBand * box.height()) {
+      return {};
+    }
+    rows.back().push_back(tree);
+  }
+  return rows;
+}
+
+/// Pieces of about one size in rows that do not overlap, at least two in one of them: a sheet of sprites.
+/// Empty where it is none.
+TreeRows rows_of_trees(const std::vector<Mask>& pieces) {
+  const MaskBox largest = box_of(pieces.front());
+  const double least_area = kLeastArea * static_cast<double>(area_px(pieces.front()));
+  std::vector<BoxedTree> trees;
+  for (const Mask& piece : pieces) {
+    const MaskBox box = box_of(piece);
+    if (static_cast<double>(area_px(piece)) >= least_area && box.height() >= kLeastHeight * largest.height())
+      trees.emplace_back(box, &piece);
+  }
+  TreeRows rows;
+  bool has_pair = false;
+  for (std::vector<BoxedTree>& row : grouped_in_rows(std::move(trees))) {
+    std::sort(row.begin(), row.end(),
+              [](const BoxedTree& a, const BoxedTree& b) { return a.first.left < b.first.left; });
+    has_pair = has_pair || row.size() > 1;
+    rows.emplace_back();
+    for (const auto& [box, piece] : row) rows.back().push_back(*piece);
+  }
+  return has_pair && rows.size() > 1 ? rows : TreeRows{};
+}
+
+std::vector<Mask> closed_pieces(const Mask& mask) {
+  const int side = std::max(mask.width_px(), mask.height_px());
+  const Mask closed = close_disc(mask, std::max(1, static_cast<int>(std::lround(kLooseLeaves * side))));
+  return separate_pieces(closed, area_px(closed) / 200 + 1, Connectivity::eight);
+}
+
+TreeRows rows_in(const Mask& mask) {
+  const std::vector<Mask> pieces = closed_pieces(mask);
+  return pieces.empty() ? TreeRows{} : rows_of_trees(pieces);
+}
+
 /// The trees of a mask, each closed to one piece, the largest first.
 std::vector<Mask> trees_in(const Mask& mask) {
   const int side = std::max(mask.width_px(), mask.height_px());
@@ -85,6 +143,19 @@ std::vector<Mask> trees_in(const Mask& mask) {
   return trees;
 }
 
+/// What of a mask stands in the columns of one of its trees and belongs to no other.
+Mask alone(const Mask& mask, const Mask& tree, const std::vector<Mask>& trees) {
+  const MaskBox box = box_of(tree);
+  Mask part(mask.width_px(), mask.height_px());
+  for (int y = 0; y < mask.height_px(); ++y)
+    for (int x = box.left; x < box.right; ++x) {
+      const bool is_others = std::any_of(
+          trees.begin(), trees.end(), [&](const Mask& other) { return &other != &tree && other.get(x, y); });
+      if (mask.get(x, y) && !is_others) part.set(x, y);
+    }
+  return part;
+}
+
 }  // namespace
 
 PictureFaults picture_faults(const Mask& mask) {
@@ -92,21 +163,38 @@ PictureFaults picture_faults(const Mask& mask) {
   if (area_px(mask) == 0) return faults;
   find_cuts(mask, faults);
   faults.trees = static_cast<int>(trees_in(mask).size());
+  if (const TreeRows rows = rows_in(mask); !rows.empty()) {
+    faults.rows = static_cast<int>(rows.size());
+    faults.trees = 0;
+    for (const std::vector<Mask>& row : rows) faults.trees += static_cast<int>(row.size());
+  }
   return faults;
 }
 
+std::vector<Mask> trees_as_read(const Mask& mask) {
+  std::vector<Mask> result;
+  if (const TreeRows rows = rows_in(mask); !rows.empty()) {
+    for (const std::vector<Mask>& row : rows)
+      for (const Mask& tree : row) result.push_back(both(mask, tree));
+    return result;
+  }
+  std::vector<Mask> trees = trees_in(mask);
+  if (trees.size() < 2) return {mask};
+  std::sort(trees.begin(), trees.end(),
+            [](const Mask& a, const Mask& b) { return box_of(a).left < box_of(b).left; });
+  for (const Mask& tree : trees) result.push_back(alone(mask, tree, trees));
+  return result;
+}
+
 Mask largest_tree(const Mask& mask) {
+  if (!rows_in(mask).empty()) {
+    const std::vector<Mask> trees = trees_as_read(mask);
+    return *std::max_element(trees.begin(), trees.end(),
+                             [](const Mask& a, const Mask& b) { return area_px(a) < area_px(b); });
+  }
   const std::vector<Mask> trees = trees_in(mask);
   if (trees.size() < 2) return mask;
-  const MaskBox box = box_of(trees.front());
-  Mask alone(mask.width_px(), mask.height_px());
-  for (int y = 0; y < mask.height_px(); ++y)
-    for (int x = box.left; x < box.right; ++x) {
-      const bool is_others =
-          std::any_of(trees.begin() + 1, trees.end(), [&](const Mask& tree) { return tree.get(x, y); });
-      if (mask.get(x, y) && !is_others) alone.set(x, y);
-    }
-  return alone;
+  return alone(mask, trees.front(), trees);
 }
 
 std::vector<std::string> describe(const PictureFaults& faults, bool took_largest) {
@@ -124,9 +212,11 @@ std::vector<std::string> describe(const PictureFaults& faults, bool took_largest
         "the tree runs into the lower edge of the picture, and not by its trunk alone: the lower edge is "
         "taken for its foot");
   if (faults.trees > 1)
-    lines.push_back(fmt::format(
-        "there are {} trees in the picture: {}", faults.trees,
-        took_largest ? "the largest is fitted, the others are left out" : "they are fitted as one"));
+    lines.push_back(
+        fmt::format("there are {} trees in the picture{}: {}", faults.trees,
+                    faults.rows > 1 ? fmt::format(", in {} rows", faults.rows) : "",
+                    took_largest ? "the largest is fitted, the others are left out (--tree chooses another)"
+                                 : "they are fitted as one"));
   return lines;
 }
 

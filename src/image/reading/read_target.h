@@ -3,6 +3,7 @@
 // Lengths in pixels: of the frame, or "source px" for those of the picture file.
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include <espalier/image/masks/mask.h>
 #include <espalier/image/reading/frame.h>
 #include <espalier/image/reading/picture_faults.h>
+#include <espalier/image/reading/picture_hints.h>
 #include <espalier/image/reading/plant_labels.h>
 #include <espalier/image/separation/separation_options.h>
 
@@ -25,6 +27,7 @@ inline constexpr auto kNames<LabelChoice> =
 struct TargetOptions {
   int size_px = 256;  ///< side of the square frame, 16..4096
   SeparationOptions separation;
+  PictureHints hints;
   int speck_px = -1;           ///< pieces of the source smaller than this are dropped; -1: chosen by size
   bool fill_pinholes = false;  ///< fill holes smaller than speck_px
   bool one_tree = false;       ///< of several trees in a picture, the largest; else all as one
@@ -39,12 +42,16 @@ struct TargetPicture {
   std::string how;                    ///< one line: how the mask was made
   double confidence = 1;              ///< share of what stands out that is clearly tree or clearly ground
   std::vector<std::string> warnings;  ///< of the separation, a line each
-  PictureFaults faults;               ///< of the picture; only read_target looks for them
-  PlantLabels labels;  ///< of the mask's size and within it; only of read_target, where they are asked for
+  std::vector<std::string> left_out;  ///< what of the picture is no tree, a line each
+  std::optional<double> height_m;     ///< of the tree, where a scale bar tells it
+  Mask source_tree,
+      source_marks;      ///< in the picture's own place: what is fitted, and what was left out of it
+  PictureFaults faults;  ///< of the picture; only read_target looks for them
+  PlantLabels labels;    ///< of the mask's size and within it; only of read_target, where they are asked for
 };
 
 /// Throws InputError (one line, naming the file) for what is no readable picture, claims more than
-/// 100 Mpx, holds NaN, or shows no tree.
+/// 100 Mpx, holds NaN, or shows no tree; and where options contradict each other or the picture.
 TargetPicture read_target(const std::filesystem::path& path, const TargetOptions& options = {});
 
 /// Only separated and cleaned, in the picture's own size and place.

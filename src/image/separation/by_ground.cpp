@@ -34,6 +34,7 @@ Separation separate_by_ground(const DecodedPicture& picture, const Mask& shown, 
   Separation separation;
   const float rounding = mixture.is_soft ? 0 : kRounding;
   separation.mask = both(above(coverage, options.threshold - rounding), shown);
+  separation.mask = either(separation.mask, ground.claimed);
   if (options.side == TreeSide::dark) separation.mask = without(shown, separation.mask);
   const auto [red, green, blue] = options.ground_color.value_or(border.color);
   const std::string of_ground =
@@ -47,8 +48,8 @@ Separation separate_by_ground(const DecodedPicture& picture, const Mask& shown, 
       clear_share(coverage, options.threshold) * std::min(1.0, ground.border_share / kDoubtfulBorder);
   if (ground.border_share < kDoubtfulBorder)
     separation.warnings.push_back(
-        fmt::format("only {:.0f} % of the border shows a ground: the mask may be wrong "
-                    "(--separation alpha or luminance reads it another way)",
+        fmt::format("only {:.0f} % of the border shows a ground: the mask may be wrong (--region, "
+                    "--seed-ground or --ground-color tell it)",
                     100 * ground.border_share));
   return separation;
 }

@@ -12,13 +12,19 @@ namespace {
 
 constexpr int kBins = 256;
 
-/// Whether most of the border is set.
-bool border_is_set(const Mask& mask) {
+/// Whether most of the border of what is shown is set.
+bool border_is_set(const Mask& mask, const Mask& shown) {
+  const int right = shown.width_px() - 1, bottom = shown.height_px() - 1;
   long set = 0, all = 0;
-  visit_border(mask.width_px(), mask.height_px(), [&](int x, int y) {
-    set += mask.get(x, y);
-    ++all;
-  });
+  for (int y = 0; y <= bottom; ++y)
+    for (int x = 0; x <= right; ++x) {
+      if (!shown.get(x, y)) continue;
+      const bool is_inside = x > 0 && y > 0 && x < right && y < bottom && shown.get(x - 1, y) &&
+                             shown.get(x + 1, y) && shown.get(x, y - 1) && shown.get(x, y + 1);
+      if (is_inside) continue;
+      set += mask.get(x, y);
+      ++all;
+    }
   return 2 * set > all;
 }
 
@@ -50,11 +56,22 @@ float luminance_of_pixel(const Rgba& rgba) {
   return 0.2126f * rgba[0] + 0.7152f * rgba[1] + 0.0722f * rgba[2];
 }
 
+/// As one row.
+Channel shown_values(const Channel& channel, const Mask& shown) {
+  Channel values;
+  for (int y = 0; y < channel.height_px; ++y)
+    for (int x = 0; x < channel.width_px; ++x)
+      if (shown.get(x, y)) values.values.push_back(channel.at(x, y));
+  values.width_px = static_cast<int>(values.values.size()), values.height_px = 1;
+  return values;
+}
+
 }  // namespace
 
 Channel luminance_of(const DecodedPicture& picture) { return make_channel(picture, luminance_of_pixel); }
 
-ToneSplit split_tones(const Channel& channel) {
+ToneSplit split_tones(const Channel& luminance, const Mask& shown) {
+  const Channel channel = shown_values(luminance, shown);
   const Range range = robust_range(channel.values);
   if (!(range.upper > range.lower)) return {};
   std::vector<std::size_t> histogram(kBins, 0);
@@ -82,16 +99,16 @@ ToneSplit split_tones(const Channel& channel) {
   return split;
 }
 
-Separation separate_by_luminance(const Channel& luminance, const ToneSplit& split,
+Separation separate_by_luminance(const Channel& luminance, const ToneSplit& split, const Mask& shown,
                                  const SeparationOptions& options) {
-  const bool border_light = border_is_set(above(luminance, split.threshold));
+  const bool border_light = border_is_set(above(luminance, split.threshold), shown);
   const bool tree_light =
       options.side == TreeSide::light || (options.side == TreeSide::automatic && !border_light);
   const bool is_asked = options.threshold != kHalfCovered;
   const float share = tree_light ? options.threshold : 1 - options.threshold;
   const float threshold = is_asked ? split.dark_mean + share * split.contrast() : split.threshold;
   const Mask light = above(luminance, threshold);
-  return {tree_light ? light : complement(light),
+  return {both(tree_light ? light : complement(light), shown),
           fmt::format("luminance {} {:.3f} ({}), the border is {}", tree_light ? "above" : "below", threshold,
                       is_asked ? "as asked" : "Otsu", border_light ? "light" : "dark")};
 }

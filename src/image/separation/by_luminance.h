@@ -20,11 +20,12 @@ struct ToneSplit {
 
 Channel luminance_of(const DecodedPicture& picture);
 
-ToneSplit split_tones(const Channel& luminance);
+/// Of the pixels that are shown.
+ToneSplit split_tones(const Channel& luminance, const Mask& shown);
 
 /// Where a threshold other than one half is asked for, it is that share of the way from the ground's tone to
 /// the tree's.
-Separation separate_by_luminance(const Channel& luminance, const ToneSplit& split,
+Separation separate_by_luminance(const Channel& luminance, const ToneSplit& split, const Mask& shown,
                                  const SeparationOptions& options);
 
 /// Otsu's threshold: of all thresholds between bins of `histogram`, the first that maximises the variance

@@ -153,17 +153,27 @@ float tolerance_of(const Ground& ground) {
 }
 
 /// Seeds that a user names grow with the colour that they have.
-void seed_by_hand(const SeparationOptions& options, Growth& growth) {
-  for (const PixelPlace& seed : options.ground_seeds)
-    if (!growth.reached.get(seed.x, seed.y))
+void seed_by_hand(const std::vector<PixelPlace>& seeds, Growth& growth) {
+  for (const PixelPlace& seed : seeds)
+    if (!growth.reached.get(seed.x, seed.y) && growth.shown.get(seed.x, seed.y))
       growth.reach(seed.x, seed.y, color_of(growth.picture.at(seed.x, seed.y)), as_byte(kSeedTolerance));
+}
+
+Mask claimed_by_tree(const DecodedPicture& picture, const Mask& shown, const SeparationOptions& options) {
+  if (options.tree_seeds.empty()) return Mask(picture.width_px, picture.height_px);
+  Growth growth = make_growth(picture, shown);
+  seed_by_hand(options.tree_seeds, growth);
+  growth.grow();
+  return growth.reached;
 }
 
 }  // namespace
 
 Ground find_ground(const DecodedPicture& picture, const Mask& shown, const BorderColors& border,
                    const SeparationOptions& options) {
-  Growth growth = make_growth(picture, shown);
+  const Mask claimed = claimed_by_tree(picture, shown, options);
+  const Mask free = without(shown, claimed);
+  Growth growth = make_growth(picture, free);
   std::size_t like_ground = 0;
   for (const BorderPlace& place : border.places) {
     const ColorValue expected = options.ground_color.value_or(place.ground);
@@ -172,15 +182,16 @@ Ground find_ground(const DecodedPicture& picture, const Mask& shown, const Borde
     growth.offer(place.x, place.y, expected, tolerance);
     like_ground += growth.next.size() - before;
   }
-  seed_by_hand(options, growth);
+  seed_by_hand(options.ground_seeds, growth);
   growth.grow();
   Ground ground;
   ground.border_share = border.places.empty()
                             ? 0
                             : static_cast<double>(like_ground) / static_cast<double>(border.places.size());
   ground.reached = std::move(growth.reached);
+  ground.claimed = claimed;
   SmoothField field = field_of(picture, ground.reached);
-  const bool is_one_color = border.share > 0.9 && border.noise < kExact;
+  const bool is_one_color = border.share > 0.9 && border.noise < kExact && options.ground_seeds.empty();
   if (options.ground_color || is_one_color || !field.fill())
     ground.color = options.ground_color.value_or(border.color);
   else

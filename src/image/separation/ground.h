@@ -13,6 +13,7 @@ namespace espalier {
 
 struct Ground {
   Mask reached;         ///< pixels that are ground for sure
+  Mask claimed;         ///< pixels that are tree for sure, of the caller's seeds
   Channel contrast;     ///< distance of each pixel's colour from the ground's there; 0 where nothing is shown
   float tolerance = 0;  ///< contrast that the ground itself may have
   std::optional<ColorValue> color;   ///< where it is the same everywhere

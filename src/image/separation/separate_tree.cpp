@@ -3,9 +3,12 @@
 
 #include <espalier/core/error.h>
 #include <espalier/image/masks/morphology.h>
+#include <espalier/image/separation/border_strips.h>
 #include <espalier/image/separation/by_alpha.h>
 #include <espalier/image/separation/by_ground.h>
 #include <espalier/image/separation/by_luminance.h>
+#include <espalier/image/separation/hints.h>
+#include <espalier/image/separation/labels.h>
 #include <espalier/image/separation/separate_tree.h>
 
 namespace espalier {
@@ -37,9 +40,37 @@ bool is_hinted(const SeparationOptions& options) {
          !options.ground_seeds.empty();
 }
 
-Mask shown_part(const DecodedPicture& picture, const AlphaReading& alpha) {
-  if (alpha.outlines_card) return alpha.shown;
-  return complement(Mask(picture.width_px, picture.height_px));
+/// What is set within the box alone.
+Mask box_mask(const DecodedPicture& picture, const PixelBox& box) {
+  Mask mask(picture.width_px, picture.height_px);
+  for (int y = box.top; y < box.top + box.height; ++y)
+    for (int x = box.left; x < box.left + box.width; ++x) mask.set(x, y);
+  return mask;
+}
+
+Mask whole_part(const DecodedPicture& picture, const SeparationOptions& options) {
+  return box_mask(picture, options.region.value_or(PixelBox{0, 0, picture.width_px, picture.height_px}));
+}
+
+/// The part of the picture that counts, and what is left out.
+struct Shown {
+  Mask part;
+  std::vector<std::string> left_out;
+};
+
+Shown shown_part(const DecodedPicture& picture, const AlphaReading& alpha, const SeparationOptions& options) {
+  Shown shown{whole_part(picture, options), {}};
+  if (alpha.outlines_card) {
+    shown.part = both(shown.part, alpha.shown);
+    shown.left_out.emplace_back("what is transparent around a sheet: its alpha outlines no tree");
+  } else if (!options.region && !options.keep_strips) {
+    const BorderStrips strips = find_border_strips(picture);
+    if (!strips.any()) return shown;
+    shown.part = box_mask(picture, {strips.left, strips.top, picture.width_px - strips.left - strips.right,
+                                    picture.height_px - strips.top - strips.bottom});
+    shown.left_out.push_back(describe(strips));
+  }
+  return shown;
 }
 
 Separation separate_by_colors(const DecodedPicture& picture, const Mask& shown,
@@ -51,29 +82,40 @@ Separation separate_by_colors(const DecodedPicture& picture, const Mask& shown,
                       green, blue);
   }
   const Channel tones = luminance_of(picture);
-  const ToneSplit split = split_tones(tones);
+  const ToneSplit split = split_tones(tones, shown);
   const BorderColors border = border_colors(picture, shown);
   const bool by_tone = options.method == luminance ||
                        (options.method == automatic && split.is_two_tone() && !is_hinted(options));
   if (!by_tone) return separate_by_ground(picture, shown, border, options);
   if (split.contrast() < kSmallestContrast)
     throw_input_error("{}: shows no tree: it is of one tone (luminance {:.3f})", name, tones.values[0]);
-  Separation separation = separate_by_luminance(tones, split, options);
-  separation.mask = both(separation.mask, shown);
-  return separation;
+  return separate_by_luminance(tones, split, shown, options);
 }
 
 }  // namespace
 
-Separation separate_tree(const DecodedPicture& picture, const SeparationOptions& options,
+Separation separate_tree(const DecodedPicture& picture, const SeparationOptions& asked,
                          const std::string& name) {
   using enum SeparationMethod;
+  const SeparationOptions options = fitted_to(asked, picture, name);
   const AlphaReading alpha_reading = read_alpha(picture);
   check_alpha(picture, alpha_reading, options, name);
+  const bool may_hold_labels = options.method == automatic && !alpha_reading.informs && !is_hinted(options);
+  if (may_hold_labels || !options.label.empty())
+    if (auto separation = separate_by_label(picture, options.label, name)) {
+      separation->mask = both(separation->mask, whole_part(picture, options));
+      return *separation;
+    }
   if (options.method == alpha || (options.method == automatic && alpha_reading.informs &&
-                                  !alpha_reading.outlines_card && !is_hinted(options)))
-    return separate_by_alpha(picture, alpha_reading, options);
-  return separate_by_colors(picture, shown_part(picture, alpha_reading), options, name);
+                                  !alpha_reading.outlines_card && !is_hinted(options))) {
+    Separation separation = separate_by_alpha(picture, alpha_reading, options);
+    if (options.region) separation.mask = both(separation.mask, whole_part(picture, options));
+    return separation;
+  }
+  const Shown shown = shown_part(picture, alpha_reading, options);
+  Separation separation = separate_by_colors(picture, shown.part, options, name);
+  separation.left_out = shown.left_out;
+  return separation;
 }
 
 }  // namespace espalier

@@ -3,6 +3,7 @@
 
 #include <espalier/core/data_path.h>
 #include <espalier/core/error.h>
+#include <espalier/core/near_name.h>
 #include <espalier/lsystem/files/bundled.h>
 #include <espalier/lsystem/files/grammar_file.h>
 

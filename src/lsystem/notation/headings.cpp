@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <espalier/core/near_name.h>
 #include <espalier/core/parameter_table.h>
 #include <espalier/lsystem/notation/headings.h>
 #include <espalier/lsystem/notation/settings.h>

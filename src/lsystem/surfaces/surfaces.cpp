@@ -2,6 +2,7 @@
 #include <array>
 
 #include <espalier/core/files.h>
+#include <espalier/core/near_name.h>
 #include <espalier/core/parameter_table.h>
 #include <espalier/lsystem/surfaces/embedded_surfaces.h>
 #include <espalier/lsystem/surfaces/patches.h>

@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Arguments, TargetCommandBadArguments,
                          testing::Values("", "-o mask.png --size 0", "-o mask.png --size 5000",
                                          "-o mask.png --size nan", "-o mask.png --size 1e308",
                                          "-o mask.png --method magic", "-o mask.png --side left",
-                                         "-o mask.png --speck -1", "-o missing/mask.png", "-o .",
+                                         "-o mask.png --speck -2", "-o missing/mask.png", "-o .",
                                          "-o /dev/full", "-o /proc/mask.png", "-o mask.png --unknown"));
 
 TEST_F(TargetCommand, ADiskThatFillsUpLeavesTheOldFile) {

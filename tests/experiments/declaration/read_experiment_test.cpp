@@ -131,8 +131,8 @@ TEST(ReadExperiment, EachOptionRefusesAWrongTypeABadValueAndAnotherName) {
                   AllOf(HasSubstr("study.toml:3: " + key + ": got "), HasSubstr(", expected ")))
           << value;
     EXPECT_THAT(
-        error_of(kTargets + key + "s_ = 1\n"),
-        AllOf(HasSubstr("study.toml:3: " + key + "s_: got an unknown key"), HasSubstr("'" + key + "'")));
+        error_of(kTargets + "x" + key + " = 1\n"),
+        AllOf(HasSubstr("study.toml:3: x" + key + ": got an unknown key"), HasSubstr("'" + key + "'")));
   }
 }
 

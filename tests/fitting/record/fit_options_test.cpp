@@ -25,6 +25,17 @@ FitRecord whole_record() {
   FitRecord record;
   record.views = {{"/a.png", {}}};
   record.space = "species:2";  // so that all rows are written
+  record.target.hints = {.threshold = 0.4,
+                         .ground_color = "#ffffff",
+                         .tree_color = "#000000",
+                         .region = "0,0,90,90",
+                         .tree_seeds = "5,5",
+                         .ground_seeds = "6,6",
+                         .label = "3",
+                         .keep_marks = "all",
+                         .scale_bar = "10=1",
+                         .tree = 2,
+                         .frame = 3};
   record.height_m = 7;
   record.search.fixed = {{"levels", 2}};
   record.optimizer_settings = {{"population", 20}};

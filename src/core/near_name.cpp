@@ -1,7 +1,8 @@
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
-#include <espalier/app/main/near_name.h>
+#include <espalier/core/near_name.h>
 
 namespace espalier {
 
@@ -24,17 +25,29 @@ std::size_t count_typos(std::string_view a, std::string_view b) {
   return typos[a.size()][b.size()];
 }
 
+/// 1 where the word was cut short: it is the beginning of the name.
+std::size_t steps_between(std::string_view word, std::string_view name) {
+  const bool is_cut_short = word.size() >= 2 && name.starts_with(word) && name != word;
+  return is_cut_short ? 1 : count_typos(word, name);
+}
+
 }  // namespace
 
-std::optional<std::string> near_name(std::string_view word, std::span<const std::string> known) {
-  std::optional<std::string> nearest;
-  std::size_t least = word.size() < 3 ? 1 : 1 + word.size() / 3;
+std::string closest_name(std::string_view word, std::span<const std::string> known) {
+  std::string closest;
+  std::size_t least = SIZE_MAX;
   for (const std::string& name : known) {
-    const bool is_cut_short = word.size() >= 3 && name.starts_with(word);
-    const std::size_t typos = is_cut_short ? 1 : count_typos(word, name);
-    if (typos < least || (typos == least && !nearest)) nearest = name, least = typos;
+    const std::size_t steps = steps_between(word, name);
+    if (steps < least) closest = name, least = steps;
   }
-  return nearest;
+  return closest;
+}
+
+std::optional<std::string> near_name(std::string_view word, std::span<const std::string> known) {
+  const std::string closest = closest_name(word, known);
+  const std::size_t most = word.size() < 3 ? 1 : 1 + word.size() / 3;
+  if (closest.empty() || steps_between(word, closest) > most) return std::nullopt;
+  return closest;
 }
 
 }  // namespace espalier
