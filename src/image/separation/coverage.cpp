@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <vector>
 
+#include <espalier/image/masks/morphology.h>
 #include <espalier/image/separation/coverage.h>
+#include <espalier/image/separation/mask_parts.h>
 
 namespace espalier {
 
@@ -13,8 +15,11 @@ constexpr int kLeastPlateauPx = 50;
 constexpr float kFaintPlateau = 0.25f, kFullPlateau = 0.8f;  ///< of the tree's contrast
 constexpr float kOffMixture = 0.05f;     ///< from the line between two colours: no mixture of them
 constexpr float kTexturedShare = 0.25f;  ///< of pixels within the tree, off that line
-constexpr float kFaintWithin = 0.2f;     ///< of the contrast of a textured tree, shows one within it
-constexpr int kPlateauReach = 2;         ///< px: width of a soft edge
+constexpr float kFaintBeforeBlack = 0.03f, kOffBeforeBlack = 0.15f;
+constexpr int kDeepPx = 3;  ///< off the ground: deep in the tree
+/// Of the contrast of a textured tree, shows one deep in it, 2 px and 1 px off the ground.
+constexpr float kDeepFaint = 0.1f, kFaintNearGround = 0.3f, kFaintBesideGround = 0.4f;
+constexpr int kPlateauReach = 2;  ///< px: width of a soft edge
 constexpr float kBlack = 0.1f, kSoftContrast = 0.85f, kGrey = 0.02f;
 
 float median_of(std::vector<float>& values) {
@@ -109,14 +114,16 @@ bool is_grey(const DecodedPicture& picture) {
 struct Measures {
   Channel full;          ///< contrast of the tree's colour with the ground there
   Channel plateaus;      ///< contrast of plateaus that are tree, 0 elsewhere
-  double off_share = 0;  ///< of the pixels within the tree, those that are no mixtures
+  Mask off;              ///< pixels that are no mixtures of the ground's colour and the tree's
+  double off_share = 0;  ///< of those within the tree
 };
 
 Measures measure(const DecodedPicture& picture, const Ground& ground, const Plateaus& plateaus,
                  const ColorValue& tree) {
   const int width = picture.width_px, height = picture.height_px;
   Measures measures{{width, height, std::vector<float>(picture.pixels.size())},
-                    {width, height, std::vector<float>(picture.pixels.size())}};
+                    {width, height, std::vector<float>(picture.pixels.size())},
+                    Mask(width, height)};
   double within = 0, off = 0;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -126,14 +133,36 @@ Measures measure(const DecodedPicture& picture, const Ground& ground, const Plat
       const float full = color_distance(tree, behind);
       measures.full.at(x, y) = full;
       const float apart = distance_from_mixtures(color, behind, tree);
+      measures.off.set(x, y, apart > kOffMixture);
       if (plateaus.least.at(x, y) > ground.tolerance) within += 1, off += apart > kOffMixture;
-      const bool is_tree =
-          contrast > kFaintPlateau * full && (contrast > kFullPlateau * full || apart > kOffMixture);
+      const bool is_black = color_distance(behind, {}) < kBlack;  // on which nothing casts a shadow
+      const float faint = is_black ? kFaintBeforeBlack : kFaintPlateau * full;
+      const float off_mixture = is_black ? std::min(kOffMixture, kOffBeforeBlack * contrast) : kOffMixture;
+      const bool is_tree = contrast > faint && (contrast > kFullPlateau * full || apart > off_mixture);
       if (plateaus.flat.get(x, y) && is_tree) measures.plateaus.at(x, y) = contrast;
     }
   measures.off_share = within == 0 ? 0 : off / within;
   return measures;
 }
+
+/// What lies within the tree, by how far off the ground is: shade and lit leaves look like gaps there.
+class Within {
+ public:
+  explicit Within(const Ground& ground) {
+    for (int px = 1; px <= kDeepPx; ++px)
+      away_.push_back(above(local_minimum(ground.contrast, px), ground.tolerance));
+  }
+
+  /// `full`: contrast of the tree's colour with the ground.
+  bool holds(int x, int y, float contrast, float full) const {
+    if (!away_[0].get(x, y)) return false;
+    if (away_[kDeepPx - 1].get(x, y)) return contrast > kDeepFaint * full;
+    return contrast > (away_[1].get(x, y) ? kFaintNearGround : kFaintBesideGround) * full;
+  }
+
+ private:
+  std::vector<Mask> away_;  ///< 1, 2, … px off all ground
+};
 
 float share_of(float contrast, float full) { return full > 0 ? std::min(1.0f, contrast / full) : 0; }
 
@@ -157,14 +186,14 @@ Coverage coverage_of(const DecodedPicture& picture, const Ground& ground,
   }
   const Measures measures = measure(picture, ground, plateaus, tree);
   coverage.is_textured = measures.off_share > kTexturedShare;
+  const Within within(ground);
   const Channel nearby = local_maximum(measures.plateaus, kPlateauReach);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const float contrast = ground.contrast.at(x, y);
-      if (contrast <= ground.tolerance) continue;
+      const bool is_within = (coverage.is_textured || measures.off.get(x, y)) &&
+                             within.holds(x, y, contrast, measures.full.at(x, y));
       const float full = nearby.at(x, y) > 0 ? nearby.at(x, y) : measures.full.at(x, y);
-      const bool is_within = coverage.is_textured && plateaus.least.at(x, y) > ground.tolerance &&
-                             contrast > kFaintWithin * measures.full.at(x, y);
       coverage.share.at(x, y) = is_within || measures.plateaus.at(x, y) > 0 ? 1 : share_of(contrast, full);
     }
   return coverage;

@@ -17,6 +17,9 @@ namespace {
 
 constexpr float kSmallestContrast = 0.02f;  ///< between the tones of tree and background, of the range 0..1
 
+constexpr float kColored = 0.1f;        ///< difference of the channels of a pixel that is not grey
+constexpr double kMostColored = 0.005;  ///< of the pixels of a grey picture
+
 /// Whether some channel of some two pixels differs visibly.
 bool has_contrast(const DecodedPicture& picture) {
   Rgba least = picture.pixels.front(), most = least;
@@ -26,6 +29,14 @@ bool has_contrast(const DecodedPicture& picture) {
       most[c] = std::max(most[c], pixel[c]);
     }
   return std::max({most[0] - least[0], most[1] - least[1], most[2] - least[2]}) >= kSmallestContrast;
+}
+
+/// But for a few pixels, as of a stamp or of JPEG's noise.
+bool is_almost_grey(const DecodedPicture& picture) {
+  const auto colored = std::count_if(picture.pixels.begin(), picture.pixels.end(), [](const Rgba& pixel) {
+    return std::max({pixel[0], pixel[1], pixel[2]}) - std::min({pixel[0], pixel[1], pixel[2]}) > kColored;
+  });
+  return static_cast<double>(colored) < kMostColored * static_cast<double>(picture.pixels.size());
 }
 
 void check_alpha(const DecodedPicture& picture, const AlphaReading& alpha, const SeparationOptions& options,
@@ -84,8 +95,8 @@ Separation separate_by_colors(const DecodedPicture& picture, const Mask& shown,
   const Channel tones = luminance_of(picture);
   const ToneSplit split = split_tones(tones, shown);
   const BorderColors border = border_colors(picture, shown);
-  const bool by_tone = options.method == luminance ||
-                       (options.method == automatic && split.is_two_tone() && !is_hinted(options));
+  const bool by_tone = options.method == luminance || (options.method == automatic && split.is_two_tone() &&
+                                                       is_almost_grey(picture) && !is_hinted(options));
   if (!by_tone) return separate_by_ground(picture, shown, border, options);
   if (split.contrast() < kSmallestContrast)
     throw_input_error("{}: shows no tree: it is of one tone (luminance {:.3f})", name, tones.values[0]);
