@@ -25,11 +25,15 @@ TEST(ClosestName, MendsOneWrongLetter) {
   }));
 }
 
+TEST(ClosestName, CountsExchangedLettersOnce) {
+  EXPECT_EQ(closest_name("plam", std::vector<std::string>{"prim", "palm"}), "palm");
+}
+
 TEST(ClosestName, IsEmptyWhereNothingIsKnown) { EXPECT_EQ(closest_name("palm", {}), ""); }
 
 TEST(NearName, IsNotFarFromTheWord) {
   const std::vector<std::string> known = {"quaking_aspen", "acer", "palm"};
-  EXPECT_EQ(near_name("plam", known), "palm");  // exchanged letters are one step
+  EXPECT_EQ(near_name("plam", known), "palm");
   EXPECT_EQ(near_name("qua", known), "quaking_aspen");
   EXPECT_EQ(near_name("pxyz", known), std::nullopt);
   EXPECT_EQ(near_name("q", known), std::nullopt);

@@ -112,9 +112,9 @@ bool is_grey(const DecodedPicture& picture) {
 
 /// What the tree's colour is measured against at each pixel.
 struct Measures {
-  Channel full;          ///< contrast of the tree's colour with the ground there
-  Channel plateaus;      ///< contrast of plateaus that are tree, 0 elsewhere
-  Mask off;              ///< pixels that are no mixtures of the ground's colour and the tree's
+  Channel full;      ///< contrast of the tree's colour with the ground there
+  Channel plateaus;  ///< contrast of plateaus that are tree, 0 elsewhere
+  Mask off;          ///< pixels that are no mixtures of the ground's colour with the tree's, and no shadow
   double off_share = 0;  ///< of those within the tree
 };
 
@@ -133,7 +133,7 @@ Measures measure(const DecodedPicture& picture, const Ground& ground, const Plat
       const float full = color_distance(tree, behind);
       measures.full.at(x, y) = full;
       const float apart = distance_from_mixtures(color, behind, tree);
-      measures.off.set(x, y, apart > kOffMixture);
+      measures.off.set(x, y, std::min(apart, distance_from_mixtures(color, behind, {})) > kOffMixture);
       if (plateaus.least.at(x, y) > ground.tolerance) within += 1, off += apart > kOffMixture;
       const bool is_black = color_distance(behind, {}) < kBlack;  // on which nothing casts a shadow
       const float faint = is_black ? kFaintBeforeBlack : kFaintPlateau * full;

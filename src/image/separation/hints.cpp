@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <optional>
 
 #include <espalier/core/error.h>
@@ -115,9 +116,11 @@ SeparationOptions fitted_to(const SeparationOptions& options, const DecodedPictu
   const PixelBox whole{0, 0, picture.source_width_px, picture.source_height_px};
   if (options.region) {
     const PixelBox& box = *options.region;
-    if (box.left + box.width > whole.width || box.top + box.height > whole.height)
-      throw_input_error("{}: got a region to x {} and y {}, expected one within {}×{} pixels", name,
-                        box.left + box.width, box.top + box.height, whole.width, whole.height);
+    const std::int64_t right = std::int64_t{box.left} + box.width,
+                       bottom = std::int64_t{box.top} + box.height;
+    if (right > whole.width || bottom > whole.height)
+      throw_input_error("{}: got a region to x {} and y {}, expected one within {}×{} pixels", name, right,
+                        bottom, whole.width, whole.height);
   }
   const PixelBox box = options.region.value_or(whole);
   check_places(options.tree_seeds, box, "a seed of the tree at", name);
