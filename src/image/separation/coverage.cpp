@@ -133,8 +133,9 @@ Measures measure(const DecodedPicture& picture, const Ground& ground, const Plat
       const float full = color_distance(tree, behind);
       measures.full.at(x, y) = full;
       const float apart = distance_from_mixtures(color, behind, tree);
-      measures.off.set(x, y, std::min(apart, distance_from_mixtures(color, behind, {})) > kOffMixture);
-      if (plateaus.least.at(x, y) > ground.tolerance) within += 1, off += apart > kOffMixture;
+      const bool is_off = std::min(apart, distance_from_mixtures(color, behind, {})) > kOffMixture;
+      measures.off.set(x, y, is_off);
+      if (plateaus.least.at(x, y) > ground.tolerance) within += 1, off += is_off;
       const bool is_black = color_distance(behind, {}) < kBlack;  // on which nothing casts a shadow
       const float faint = is_black ? kFaintBeforeBlack : kFaintPlateau * full;
       const float off_mixture = is_black ? std::min(kOffMixture, kOffBeforeBlack * contrast) : kOffMixture;
