@@ -9,29 +9,11 @@ namespace espalier {
 
 namespace {
 
-const char* type_name(ValueType type) {
-  switch (type) {
-    case ValueType::whole:
-      return "INT";
-    case ValueType::number:
-      return "FLOAT";
-    default:
-      return "TEXT";
-  }
-}
-
 bool is_list(ValueType type) {
   return type == ValueType::texts || type == ValueType::assignments || type == ValueType::views;
 }
 
 std::string name_of_option(const FitOption& option) { return option_of(std::string(option.field)); }
-
-/// What the help shows as a default.
-std::string default_of(const FitOption& option) {
-  const std::string words = to_words(get_value(option, default_request()));
-  const bool is_none = option.zero_is_none && words == "0";
-  return is_none || option.says_default ? "" : words;
-}
 
 void add_list(CLI::App& command, const FitOption& option, RecordWords& words) {
   const auto keep = [&words, field = std::string(option.field)](const std::vector<std::string>& given) {
@@ -48,8 +30,8 @@ void add_word(CLI::App& command, const FitOption& option, RecordWords& words) {
     words.of[field] = {given};
   };
   command.add_option_function<std::string>(name_of_option(option), keep, option.help)
-      ->type_name(type_name(type_of(option)))
-      ->default_str(default_of(option))
+      ->type_name(shown_type(option))
+      ->default_str(shown_default(option, default_request()))
       ->group(std::string(option.group));
 }
 
@@ -63,6 +45,24 @@ void add_switch(CLI::App& command, const FitOption& option, RecordWords& words) 
 }
 
 }  // namespace
+
+const char* shown_type(const FitOption& option) {
+  switch (type_of(option)) {
+    case ValueType::whole:
+      return "INT";
+    case ValueType::number:
+      return "FLOAT";
+    default:
+      return "TEXT";
+  }
+}
+
+std::string shown_default(const FitOption& option, const FitRecord& record) {
+  const std::string words = to_words(get_value(option, record));
+  if (option.says_default || (option.zero_is_none && words == "0")) return "";
+  return option.word && words == fmt::format("{}", option.word->value) ? std::string(option.word->word)
+                                                                       : words;
+}
 
 FitRecord default_request() {
   FitRecord record;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <espalier/fitting/record/fit_options.h>
 #include <espalier/fitting/record/fit_record.h>
 
 namespace CLI {
@@ -20,6 +21,10 @@ struct RecordWords {
 
   bool has(const std::string& field) const { return of.contains(field); }
 };
+
+/// What the help shows as the type of an option's value, and as its default; empty where it says it in words.
+const char* shown_type(const FitOption& option);
+std::string shown_default(const FitOption& option, const FitRecord& record);
 
 /// What `espalier fit` does without any option; its picture comes later.
 FitRecord default_request();

@@ -2,6 +2,7 @@
 #include <string>
 
 #include <espalier/app/options/option_names.h>
+#include <espalier/app/options/record_options.h>
 #include <espalier/app/options/target_options.h>
 #include <espalier/fitting/record/fit_options.h>
 #include <espalier/fitting/record/option_values.h>
@@ -27,10 +28,9 @@ void add_row(CLI::App& command, const FitOption& option, const std::shared_ptr<F
         option_of(std::string(option.field)), [set] { set("true"); }, option.help);
     return;
   }
-  const std::string words = to_words(get_value(option, *record));
-  const bool is_none = option.zero_is_none && words == "0";
   command.add_option_function<std::string>(option_of(std::string(option.field)), set, option.help)
-      ->default_str(is_none ? "" : words);
+      ->type_name(shown_type(option))
+      ->default_str(shown_default(option, *record));
 }
 
 }  // namespace
