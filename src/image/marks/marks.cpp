@@ -17,6 +17,7 @@ constexpr double kLooseLeaves = 1.0 / 64;  ///< of the larger side: gaps up to t
 constexpr double kTreeArea = 0.15;  ///< of the largest: what is as large belongs to the picture's subject
 constexpr double kNearTree = 0.08;  ///< of its height: pieces as near to it may be its foliage
 constexpr double kBarShape = 8;     ///< a scale bar is as many times longer than high
+constexpr double kLeastBar = 0.1;   ///< of the tree's width, where it is at the tree's foot
 constexpr int kLeastLetters = 2;
 constexpr double kFootBand = 0.08;  ///< of the tree's height: persons stand as low as it
 constexpr double kTallerThanWide = 1.3;
@@ -44,6 +45,16 @@ class Extents {
   };
   std::vector<Range> rows_, columns_;
 };
+
+MaskBox joined(const MaskBox& a, const MaskBox& b) {
+  return {std::min(a.left, b.left), std::max(a.right, b.right), std::min(a.top, b.top),
+          std::max(a.bottom, b.bottom)};
+}
+
+void erase(const Piece& piece, Mask& mask) {
+  for (const PieceRun& run : piece.runs)
+    for (int x = run.begin; x < run.end; ++x) mask.set(x, run.y, false);
+}
 
 std::size_t set_area(const Mask& mask, const Piece& cluster) {
   std::size_t area = 0;
@@ -95,18 +106,21 @@ bool is_near(const MaskBox& piece, const MaskBox& tree) {
          piece.top >= tree.top - reach && piece.bottom <= tree.bottom;
 }
 
+/// Of the first part and all others.
+void add_bar_and_letters(const std::vector<Piece>& parts, std::vector<Mark>& marks) {
+  marks.push_back({MarkKind::scale_bar, parts.front().box});
+  if (parts.size() == 1) return;
+  MaskBox letters = parts[1].box;
+  for (std::size_t i = 2; i < parts.size(); ++i) letters = joined(letters, parts[i].box);
+  marks.push_back({MarkKind::caption, letters, static_cast<int>(parts.size()) - 1});
+}
+
 /// Beside letters may be a bar: each is a mark of its own.
 void add_marks(const std::vector<Piece>& parts, const Piece& cluster, const MaskBox& tree,
                std::vector<Mark>& marks) {
   const MarkKind kind = kind_of(parts, cluster.box, tree);
   if (kind == MarkKind::scale_bar && parts.size() > 1) {
-    marks.push_back({kind, parts.front().box});
-    MaskBox rest = parts[1].box;
-    for (const Piece& part : parts)
-      if (&part != &parts.front())
-        rest = {std::min(rest.left, part.box.left), std::max(rest.right, part.box.right),
-                std::min(rest.top, part.box.top), std::max(rest.bottom, part.box.bottom)};
-    marks.push_back({MarkKind::caption, rest, static_cast<int>(parts.size()) - 1});
+    add_bar_and_letters(parts, marks);
     return;
   }
   marks.push_back(
@@ -122,9 +136,7 @@ void take_lines(MarkedMask& marked) {
   if (!lines.columns.empty()) {
     MaskBox box = lines.columns.front();
     for (const auto* group : {&lines.rows, &lines.columns})
-      for (const MaskBox& line : *group)
-        box = {std::min(box.left, line.left), std::max(box.right, line.right), std::min(box.top, line.top),
-               std::max(box.bottom, line.bottom)};
+      for (const MaskBox& line : *group) box = joined(box, line);
     marked.marks.push_back(
         {MarkKind::frame, box, static_cast<int>(lines.rows.size() + lines.columns.size())});
     return;
@@ -163,9 +175,25 @@ void take_pieces(const MarkChoice& choice, MarkedMask& marked) {
     const MarkKind kind = kind_of(parts, cluster.box, tree.box);
     if (!is_wanted(kind, choice) || (kind == MarkKind::piece && is_near(cluster.box, tree.box))) continue;
     add_marks(parts, cluster, tree.box, marked.marks);
-    for (const PieceRun& run : cluster.runs)
-      for (int x = run.begin; x < run.end; ++x) marked.tree.set(x, run.y, false);
+    erase(cluster, marked.tree);
   }
+}
+
+/// A bar wholly below the tree, too near to its foot to be a cluster of its own, and what stands as low.
+void take_bar_below(MarkedMask& marked) {
+  const std::vector<Piece> pieces = pieces_of(marked.tree);
+  if (pieces.size() < 2) return;
+  const MaskBox& tree = pieces.front().box;
+  const auto bar = std::find_if(pieces.begin() + 1, pieces.end(), [&](const Piece& piece) {
+    return piece.box.top >= tree.bottom && piece.box.width() >= kBarShape * piece.box.height() &&
+           piece.box.width() >= kLeastBar * tree.width();
+  });
+  if (bar == pieces.end()) return;
+  std::vector<Piece> parts{*bar};
+  for (const Piece& piece : pieces)
+    if (piece.box.top >= bar->box.top && &piece != &*bar) parts.push_back(piece);
+  add_bar_and_letters(parts, marked.marks);
+  for (const Piece& part : parts) erase(part, marked.tree);
 }
 
 std::string describe(const Mark& mark) {
@@ -195,6 +223,7 @@ MarkedMask without_marks(const Mask& mask, const MarkChoice& choice) {
   MarkedMask marked{mask, {}};
   if (choice.lines) take_lines(marked);
   take_pieces(choice, marked);
+  if (choice.captions) take_bar_below(marked);
   return marked;
 }
 

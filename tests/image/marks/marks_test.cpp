@@ -76,6 +76,37 @@ TEST(Marks, ACaptionAndItsScaleBarAreLeftOutAndMeasured) {
   EXPECT_EQ(marked.marks[bar_first ? 1 : 0].parts, 9);
 }
 
+TEST(Marks, ABarJustBelowTheFootIsLeftOutWithItsLetters) {
+  Mask mask = tree();
+  draw_box(mask, 215, kFoot + 6, 285, kFoot + 8);
+  draw_box(mask, 215, kFoot + 3, 217, kFoot + 11), draw_box(mask, 283, kFoot + 3, 285, kFoot + 11);
+  draw_box(mask, 240, kFoot + 14, 246, kFoot + 22), draw_box(mask, 250, kFoot + 14, 256, kFoot + 22);
+  const MarkedMask marked = without_marks(mask, {});
+  ASSERT_EQ(marked.marks.size(), 2u);
+  EXPECT_EQ(marked.marks[0].kind, MarkKind::scale_bar);
+  EXPECT_EQ(marked.marks[0].box.width(), 70);
+  EXPECT_EQ(marked.marks[1].kind, MarkKind::caption);
+  EXPECT_EQ(marked.marks[1].parts, 2);
+  EXPECT_EQ(marked.tree, tree());
+  EXPECT_EQ(without_marks(mask, {.captions = false}).tree, mask);
+}
+
+TEST(Marks, ATrunkApartFromItsCrownStaysAsDoFallenLeaves) {
+  Mask mask = tree();
+  for (int y = 300; y < 304; ++y)
+    for (int x = 0; x < kWidth; ++x) mask.set(x, y, false);
+  draw_box(mask, 216, kFoot - 3, 222, kFoot);
+  draw_box(mask, 226, kFoot + 2, 246, kFoot + 4);
+  draw_box(mask, 230, 285, 300, 288);  // a loose twig below the crown
+  EXPECT_EQ(without_marks(mask, {}).tree, mask);
+}
+
+TEST(Marks, AMoundBelowTheFootStays) {
+  Mask mask = tree();
+  draw_box(mask, 170, kFoot + 2, 230, kFoot + 14);
+  EXPECT_EQ(without_marks(mask, {}).tree, mask);
+}
+
 TEST(Marks, APersonBesideTheTrunkIsAFigure) {
   Mask mask = tree();
   draw_box(mask, 330, kFoot - 80, 350, kFoot);
