@@ -97,7 +97,7 @@ TEST(Marks, ATrunkApartFromItsCrownStaysAsDoFallenLeaves) {
     for (int x = 0; x < kWidth; ++x) mask.set(x, y, false);
   draw_box(mask, 216, kFoot - 3, 222, kFoot);
   draw_box(mask, 226, kFoot + 2, 246, kFoot + 4);
-  draw_box(mask, 230, 285, 300, 288);  // a loose twig below the crown
+  draw_box(mask, 262, 285, 312, 288);  // a loose twig below the crown
   EXPECT_EQ(without_marks(mask, {}).tree, mask);
 }
 
