@@ -60,6 +60,12 @@ TEST(MeshVolume, OfAPlantsTubesSumsToWhatTheyEnclose) {
   EXPECT_LE(volume.union_m3, volume.sum_m3);
 }
 
+/// The diagonals of its upper and lower side lie on the middles of columns.
+TEST(MeshVolume, CrossesAnEdgeOfTwoTrianglesOnce) {
+  const MeshVolume volume = measure_volume(box_mesh({-0.5f, -0.5f, 0}, {0.5f, 0.5f, 1}), kCrossings);
+  EXPECT_DOUBLE_EQ(volume.sum_m3, volume.union_m3);
+}
+
 TEST(MeshVolume, OfNothingIsNone) { EXPECT_EQ(measure_volume({}, kCrossings).union_m3, 0); }
 
 }  // namespace

@@ -3,8 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
+#include <espalier/app/commands/target_sheet.h>
+#include <espalier/image/masks/mask_box.h>
+#include <espalier/image/pictures/decode.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/image/reading/read_target.h>
 
@@ -97,8 +101,18 @@ INSTANTIATE_TEST_SUITE_P(Arguments, TargetCommandBadArguments,
                          testing::Values("", "-o mask.png --size 0", "-o mask.png --size 5000",
                                          "-o mask.png --size nan", "-o mask.png --size 1e308",
                                          "-o mask.png --method magic", "-o mask.png --side left",
-                                         "-o mask.png --speck -2", "-o missing/mask.png", "-o .",
-                                         "-o /dev/full", "-o /proc/mask.png", "-o mask.png --unknown"));
+                                         "-o mask.png --speck -2", "-o mask.png --threshold 2",
+                                         "-o mask.png --sheet sheet.jpg", "-o mask.png --keep-marks dogs",
+                                         "-o mask.png --region 1,2,3", "-o mask.png --tree 9",
+                                         "-o missing/mask.png", "-o .", "-o /dev/full", "-o /proc/mask.png",
+                                         "-o mask.png --unknown"));
+
+TEST_F(TargetCommand, ABadValueIsNamedByItsOption) {
+  EXPECT_THAT(run_espalier("target " + fir_ + " -o /dev/null --keep-marks dogs").err,
+              HasSubstr("--keep-marks: got 'dogs'"));
+  EXPECT_THAT(run_espalier("target " + fir_ + " -o /dev/null --threshold 2").err,
+              HasSubstr("--threshold: got 2"));
+}
 
 TEST_F(TargetCommand, ADiskThatFillsUpLeavesTheOldFile) {
   test::write_bytes(folder_ / "mask.png", "old");
@@ -126,6 +140,52 @@ TEST_F(TargetCommand, WarningsOfAPictureGoToStderr) {
   EXPECT_EQ(fitted.exit_code, 0) << fitted.err;
   EXPECT_THAT(fitted.err, HasSubstr(warning));
   EXPECT_THAT(run_espalier(fmt::format("target {} -o /dev/null", quoted(picture))).err, HasSubstr(warning));
+}
+
+/// Two trees, the left one larger, and letters above.
+Mask two_trees() {
+  Mask mask(300, 200);
+  const auto draw_box = [&](int left, int top, int right, int bottom) {
+    for (int y = top; y < bottom; ++y)
+      for (int x = left; x < right; ++x) mask.set(x, y);
+  };
+  draw_box(20, 40, 120, 140), draw_box(65, 140, 75, 190);
+  draw_box(180, 60, 260, 140), draw_box(216, 140, 224, 190);
+  for (int letter = 0; letter < 5; ++letter) draw_box(140 + 10 * letter, 10, 146 + 10 * letter, 18);
+  return mask;
+}
+
+TEST_F(TargetCommand, TakesTheLargestOneOrAllOfSeveralTrees) {
+  write_mask_png(folder_ / "two.png", two_trees());
+  const auto width_over_height = [&](const std::string& option) {
+    const fs::path mask = folder_ / "mask.png";
+    const ProgramRun run =
+        run_espalier(fmt::format("target {} -o {} {}", quoted(folder_ / "two.png"), quoted(mask), option));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const MaskBox box = box_of(read_mask(mask).mask);
+    return static_cast<double>(box.width()) / box.height();
+  };
+  EXPECT_NEAR(width_over_height(""), 100.0 / 150, 0.02);
+  EXPECT_NEAR(width_over_height("--tree 2"), 80.0 / 130, 0.02);
+  EXPECT_NEAR(width_over_height("--all-trees"), 240.0 / 150, 0.02);
+}
+
+TEST_F(TargetCommand, ASheetShowsThePictureItsTreeWhatWasLeftOutAndTheMask) {
+  write_mask_png(folder_ / "two.png", two_trees());
+  const ProgramRun run = run_espalier(fmt::format("target {} -o {} --size 100 --all-trees --sheet {}",
+                                                  quoted(folder_ / "two.png"), quoted(folder_ / "mask.png"),
+                                                  quoted(folder_ / "sheet.png")));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("left out: a caption of 5 pieces at 140,10"));
+  const DecodedPicture sheet = decode_picture(folder_ / "sheet.png");
+  EXPECT_EQ(sheet.height_px, 100);
+  const auto red_at = [&](int x, int y) { return std::lround(sheet.at(x, y)[0] * 255); };
+  const int step_px = sheet.width_px / 4 + 1;  // of panels and the gaps between them
+  EXPECT_EQ(red_at(20, 25), 255);              // a crown, as in the picture
+  EXPECT_EQ(red_at(step_px + 20, 25), kPaleTreeColor.r);
+  EXPECT_EQ(red_at(step_px + 47, 4), kLeftOutColor.r);  // the first letter
+  EXPECT_EQ(red_at(2 * step_px + 20, 50), 255);         // the mask
+  EXPECT_EQ(red_at(2 * step_px + 50, 5), 0);
 }
 
 /// The fir is green: its labels are a picture of leaves, and the command says how they were told.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <espalier/app/main/old_names.h>
 #include <espalier/app/main/program.h>
 
 namespace espalier {
@@ -103,6 +104,13 @@ TEST(Program, NamesOfOtherVersionsAndCommandsAreTaken) {
            {"render", "nothing.toml", "--out", "a.png"}})
     EXPECT_THAT(run(words).err, testing::ContainsRegex("(a.png|nothing.toml): (there is )?no such file"))
         << words[0];
+}
+
+TEST(Program, WordsBehindTwoDashesAreNoNames) {
+  const std::vector<std::string> words = with_names_of_today({"fit", "--side", "dark", "--", "--side"});
+  EXPECT_EQ(words, (std::vector<std::string>{"fit", "--tree-side", "dark", "--", "--side"}));
+  EXPECT_EQ(with_names_of_today({"target", "--side=dark"}).back(), "--tree-side=dark");
+  EXPECT_EQ(with_names_of_today({"render", "--side"}).back(), "--side");
 }
 
 TEST(Program, HelpNamesEveryCommandAndExitsWith0) {
