@@ -6,11 +6,11 @@
 
 namespace espalier {
 
-FitTask with_finer_views(const FitRecord& record, const FitTask& task, bool is_traced, SizedTasks& sized) {
+FitTask with_finer_views(const FitRecord& record, const FitTask& task, bool at_full_size, SizedTasks& sized) {
   FitTask finer = task;
-  const int size_px = is_traced ? kFullSizePx : std::min(2 * record.target.size_px, kFullSizePx);
+  const int size_px = at_full_size ? kFullSizePx : std::min(2 * record.target.size_px, kFullSizePx);
   if (size_px <= record.target.size_px) return finer;
-  if (is_traced) finer.views.clear();
+  if (at_full_size) finer.views.clear();
   for (const TargetView& view : sized.at(size_px).views) finer.views.push_back(view);
   return finer;
 }

@@ -80,6 +80,7 @@ class FitRun : public Observer {
   // fit_run_refinement.cpp
   bool will_refine() const;
   bool is_traced() const;  ///< branches come from the picture
+  bool finishes_at_full_size() const;
   void refine();
   std::vector<Solution> refinement_starts();
   void go_on_from(const BranchRounds& reached);

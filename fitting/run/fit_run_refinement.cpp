@@ -17,6 +17,10 @@ bool FitRun::is_traced() const {
          can_trace(*task_.model, given_overrides_);
 }
 
+/// The fringe of a palm's fronds and the rim of its trunk are thinner than a pixel of twice the search's
+/// size.
+bool FitRun::finishes_at_full_size() const { return is_traced() || state_.kind == KindChoice::palm; }
+
 /// Branch by branch, from the best of the search; what ended the search does not end this.
 void FitRun::refine() {
   if (state_.stopped_by == FitStop::interrupted || state_.stopped_by == FitStop::target_fitness) return;
@@ -36,7 +40,7 @@ void FitRun::refine() {
 }
 
 void FitRun::refine_by_rounds() {
-  if (finishing()) finer_task_ = with_finer_views(record_, task_, is_traced(), sized_tasks_);
+  if (finishing()) finer_task_ = with_finer_views(record_, task_, finishes_at_full_size(), sized_tasks_);
   while (!stop_requested()) {
     if (state_.branches.rounds == record_.budget.branch_rounds) {
       state_.stopped_by = FitStop::rounds;
@@ -52,7 +56,7 @@ void FitRun::refine_by_rounds() {
 
 /// From here on copies are scored at both sizes.
 void FitRun::begin_finish() {
-  finer_task_ = with_finer_views(record_, task_, is_traced(), sized_tasks_);
+  finer_task_ = with_finer_views(record_, task_, finishes_at_full_size(), sized_tasks_);
   state_.branches.finish_from = state_.branches.rounds;
   rescore(*finer_task_, state_.branches);
   stage_ = FitStage::finish;
