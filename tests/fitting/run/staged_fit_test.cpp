@@ -148,6 +148,21 @@ TEST(StagedFit, ResumedInItsFinishItIsTheUnbrokenRun) {
   EXPECT_EQ(history_of(broken).size(), history_of(unbroken).size());
 }
 
+/// What its last rounds minimise is one less the IoU of what the summary says of masks of 512 pixels.
+TEST(StagedFit, APalmEndsAtFullSizeAlone) {
+  FitRecord record = finished_record(4);
+  record.views[0].picture = fs::path(ESPALIER_SOURCE_DIR) / "targets/oc_palm.png";
+  record.start = "palm";
+  record.objective = "iou";
+  record.growth = {300, 3000};
+  const fs::path run = new_run("palm_finish");
+  fit(record, run);
+  EXPECT_EQ(history_of(run).back()["stage"], "finish");
+  EXPECT_LT(history_of(run).back()["own_score"], 0.9);
+  EXPECT_NEAR(history_of(run).back()["own_score"].get<double>(),
+              1 - summary_of(run)["full_size"]["iou"].get<double>(), 1e-9);
+}
+
 TEST(StagedFit, RepeatedFromItsOutcomeItIsTheSameRun) {
   const fs::path run = new_run("finish_first"), again = new_run("finish_again");
   fit(staged_record(5), run);
