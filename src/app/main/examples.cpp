@@ -25,7 +25,7 @@ constexpr Examples kExamples[] = {
       "espalier trials old_run --picture oak.png"}},
     {"target",
      {"espalier target oak.png -o mask.png",
-      "espalier target oak.png -o mask.png --size 512 --labels labels.png",
+      "espalier target oak.png -o mask.png --size 512 --sheet sheet.png",
       "espalier target scan.jpg -o mask.png --separation luminance --tree-side dark"}},
     {"compare",
      {"espalier compare runs/oak/best.png runs/oak/target.png", "espalier compare a.png b.png --json",
