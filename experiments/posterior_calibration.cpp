@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -29,6 +28,7 @@
 #include <espalier/models/models.h>
 
 #include "kept_table.h"
+#include "program_main.h"
 
 namespace espalier {
 namespace {
@@ -300,14 +300,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace espalier
 
-int main(int argc, char** argv) {
-  try {
-    return espalier::run(argc, argv);
-  } catch (const espalier::InputError& error) {
-    fmt::print(stderr, "{}: {}\n", argv[0], error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", argv[0], error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return espalier::run_program(argc, argv, espalier::run); }

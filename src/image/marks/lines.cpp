@@ -58,8 +58,7 @@ void add_line(const MaskBox& line, std::vector<MaskBox>& lines) {
   for (MaskBox& known : lines)
     if (line.top <= known.bottom && known.top <= line.bottom && line.left <= known.right &&
         known.left <= line.right) {
-      known = {std::min(known.left, line.left), std::max(known.right, line.right),
-               std::min(known.top, line.top), std::max(known.bottom, line.bottom)};
+      known = joined(known, line);
       return;
     }
   lines.push_back(line);

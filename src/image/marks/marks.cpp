@@ -5,8 +5,8 @@
 
 #include <espalier/image/marks/lines.h>
 #include <espalier/image/marks/marks.h>
-#include <espalier/image/marks/pieces.h>
 #include <espalier/image/masks/morphology.h>
+#include <espalier/image/masks/pieces.h>
 #include <espalier/image/masks/row_runs.h>
 
 namespace espalier {
@@ -25,7 +25,7 @@ constexpr double kTallerThanWide = 1.3;
 /// Rows and columns between the first and the last set pixel of a tree.
 class Extents {
  public:
-  explicit Extents(const Piece& tree, int width_px, int height_px)
+  explicit Extents(const MaskPiece& tree, int width_px, int height_px)
       : rows_(height_px, Range{width_px, -1}), columns_(width_px, Range{height_px, -1}) {
     for (const PieceRun& run : tree.runs) {
       rows_[run.y] = {std::min(rows_[run.y].first, run.begin), std::max(rows_[run.y].last, run.end - 1)};
@@ -46,17 +46,12 @@ class Extents {
   std::vector<Range> rows_, columns_;
 };
 
-MaskBox joined(const MaskBox& a, const MaskBox& b) {
-  return {std::min(a.left, b.left), std::max(a.right, b.right), std::min(a.top, b.top),
-          std::max(a.bottom, b.bottom)};
-}
-
-void erase(const Piece& piece, Mask& mask) {
+void erase(const MaskPiece& piece, Mask& mask) {
   for (const PieceRun& run : piece.runs)
     for (int x = run.begin; x < run.end; ++x) mask.set(x, run.y, false);
 }
 
-std::size_t set_area(const Mask& mask, const Piece& cluster) {
+std::size_t set_area(const Mask& mask, const MaskPiece& cluster) {
   std::size_t area = 0;
   for (const PieceRun& run : cluster.runs)
     for (int x = run.begin; x < run.end; ++x) area += mask.get(x, run.y);
@@ -64,7 +59,7 @@ std::size_t set_area(const Mask& mask, const Piece& cluster) {
 }
 
 /// What is set of a mask in a cluster, as pieces.
-std::vector<Piece> parts_of(const Mask& mask, const Piece& cluster) {
+std::vector<MaskPiece> parts_of(const Mask& mask, const MaskPiece& cluster) {
   Mask part(mask.width_px(), mask.height_px());
   for (const PieceRun& run : cluster.runs)
     for (int x = run.begin; x < run.end; ++x)
@@ -72,12 +67,12 @@ std::vector<Piece> parts_of(const Mask& mask, const Piece& cluster) {
   return pieces_of(part);
 }
 
-bool is_bar(const Piece& part) {
+bool is_bar(const MaskPiece& part) {
   return part.box.width() >= kBarShape * part.box.height() &&
          2 * part.area_px >= static_cast<std::size_t>(part.box.width()) * part.box.height();
 }
 
-MarkKind kind_of(const std::vector<Piece>& parts, const MaskBox& box, const MaskBox& tree) {
+MarkKind kind_of(const std::vector<MaskPiece>& parts, const MaskBox& box, const MaskBox& tree) {
   if (is_bar(parts.front())) return MarkKind::scale_bar;
   const bool is_wide = box.width() > box.height();
   if (static_cast<int>(parts.size()) >= kLeastLetters && is_wide) return MarkKind::caption;
@@ -107,7 +102,7 @@ bool is_near(const MaskBox& piece, const MaskBox& tree) {
 }
 
 /// Of the first part and all others.
-void add_bar_and_letters(const std::vector<Piece>& parts, std::vector<Mark>& marks) {
+void add_bar_and_letters(const std::vector<MaskPiece>& parts, std::vector<Mark>& marks) {
   marks.push_back({MarkKind::scale_bar, parts.front().box});
   if (parts.size() == 1) return;
   MaskBox letters = parts[1].box;
@@ -116,7 +111,7 @@ void add_bar_and_letters(const std::vector<Piece>& parts, std::vector<Mark>& mar
 }
 
 /// Beside letters may be a bar: each is a mark of its own.
-void add_marks(const std::vector<Piece>& parts, const Piece& cluster, const MaskBox& tree,
+void add_marks(const std::vector<MaskPiece>& parts, const MaskPiece& cluster, const MaskBox& tree,
                std::vector<Mark>& marks) {
   const MarkKind kind = kind_of(parts, cluster.box, tree);
   if (kind == MarkKind::scale_bar && parts.size() > 1) {
@@ -145,32 +140,32 @@ void take_lines(MarkedMask& marked) {
 }
 
 /// Clusters of pieces as near to each other as leaves, the one with the most pixels first.
-std::vector<Piece> clusters_of(const Mask& mask) {
+std::vector<MaskPiece> clusters_of(const Mask& mask) {
   const int side = std::max(mask.width_px(), mask.height_px());
-  std::vector<Piece> clusters =
+  std::vector<MaskPiece> clusters =
       pieces_of(close_disc(mask, std::max(1, static_cast<int>(std::lround(kLooseLeaves * side)))));
-  for (Piece& cluster : clusters) cluster.area_px = set_area(mask, cluster);
+  for (MaskPiece& cluster : clusters) cluster.area_px = set_area(mask, cluster);
   std::stable_sort(clusters.begin(), clusters.end(),
-                   [](const Piece& a, const Piece& b) { return a.area_px > b.area_px; });
+                   [](const MaskPiece& a, const MaskPiece& b) { return a.area_px > b.area_px; });
   return clusters;
 }
 
 void take_pieces(const MarkChoice& choice, MarkedMask& marked) {
   if (pieces_of(marked.tree).size() < 2) return;
   const Mask mask = marked.tree;
-  const std::vector<Piece> clusters = clusters_of(mask);
-  const Piece& tree = clusters.front();
+  const std::vector<MaskPiece> clusters = clusters_of(mask);
+  const MaskPiece& tree = clusters.front();
   const Extents extents(tree, mask.width_px(), mask.height_px());
-  const auto is_apart = [&](const Piece& cluster) {
+  const auto is_apart = [&](const MaskPiece& cluster) {
     const bool is_large =
         static_cast<double>(cluster.area_px) >= kTreeArea * static_cast<double>(tree.area_px);
     return !is_large && !extents.surround((cluster.box.left + cluster.box.right) / 2,
                                           (cluster.box.top + cluster.box.bottom) / 2);
   };
   for (std::size_t i = 1; i < clusters.size(); ++i) {
-    const Piece& cluster = clusters[i];
+    const MaskPiece& cluster = clusters[i];
     if (!is_apart(cluster)) continue;
-    const std::vector<Piece> parts = parts_of(mask, cluster);
+    const std::vector<MaskPiece> parts = parts_of(mask, cluster);
     if (parts.empty()) continue;  // closing reaches beyond what it closes at the picture's edges
     const MarkKind kind = kind_of(parts, cluster.box, tree.box);
     if (!is_wanted(kind, choice) || (kind == MarkKind::piece && is_near(cluster.box, tree.box))) continue;
@@ -181,19 +176,19 @@ void take_pieces(const MarkChoice& choice, MarkedMask& marked) {
 
 /// A bar wholly below the tree, too near to its foot to be a cluster of its own, and what stands as low.
 void take_bar_below(MarkedMask& marked) {
-  const std::vector<Piece> pieces = pieces_of(marked.tree);
+  const std::vector<MaskPiece> pieces = pieces_of(marked.tree);
   if (pieces.size() < 2) return;
   const MaskBox& tree = pieces.front().box;
-  const auto bar = std::find_if(pieces.begin() + 1, pieces.end(), [&](const Piece& piece) {
+  const auto bar = std::find_if(pieces.begin() + 1, pieces.end(), [&](const MaskPiece& piece) {
     return piece.box.top >= tree.bottom && piece.box.width() >= kBarShape * piece.box.height() &&
            piece.box.width() >= kLeastBar * tree.width();
   });
   if (bar == pieces.end()) return;
-  std::vector<Piece> parts{*bar};
-  for (const Piece& piece : pieces)
+  std::vector<MaskPiece> parts{*bar};
+  for (const MaskPiece& piece : pieces)
     if (piece.box.top >= bar->box.top && &piece != &*bar) parts.push_back(piece);
   add_bar_and_letters(parts, marked.marks);
-  for (const Piece& part : parts) erase(part, marked.tree);
+  for (const MaskPiece& part : parts) erase(part, marked.tree);
 }
 
 std::string describe(const Mark& mark) {

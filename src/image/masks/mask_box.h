@@ -1,5 +1,6 @@
 // The smallest box of pixels that holds all that is set in a mask.
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 #include <espalier/image/masks/mask.h>
@@ -18,5 +19,11 @@ struct MaskBox {
 };
 
 MaskBox box_of(const Mask& mask);
+
+/// The least box around both.
+inline MaskBox joined(const MaskBox& a, const MaskBox& b) {
+  return {std::min(a.left, b.left), std::max(a.right, b.right), std::min(a.top, b.top),
+          std::max(a.bottom, b.bottom)};
+}
 
 }  // namespace espalier

@@ -4,16 +4,15 @@
 #include <vector>
 
 #include <espalier/image/masks/mask.h>
+#include <espalier/image/masks/pieces.h>
 
 namespace espalier {
-
-enum class Connectivity { four, eight };
 
 /// The pieces (connected sets of set pixels) of at least `min_area_px`.
 Mask large_pieces(const Mask& mask, std::size_t min_area_px, Connectivity connectivity);
 
-/// The same pieces one by one, the largest first.
-std::vector<Mask> separate_pieces(const Mask& mask, std::size_t min_area_px, Connectivity connectivity);
+/// The 8-connected ones, each alone, the largest first.
+std::vector<Mask> separate_pieces(const Mask& mask, std::size_t min_area_px);
 
 /// Drops pieces (8-connected) under `speck_px` that no piece of that size has within a 64th of the
 /// picture's larger side: loose leaves at the crown's rim stay.

@@ -113,7 +113,7 @@ TreeRows rows_of_trees(const std::vector<Mask>& pieces) {
 std::vector<Mask> closed_pieces(const Mask& mask) {
   const int side = std::max(mask.width_px(), mask.height_px());
   const Mask closed = close_disc(mask, std::max(1, static_cast<int>(std::lround(kLooseLeaves * side))));
-  return separate_pieces(closed, area_px(closed) / 200 + 1, Connectivity::eight);
+  return separate_pieces(closed, area_px(closed) / 200 + 1);
 }
 
 TreeRows rows_in(const Mask& mask) {
@@ -125,7 +125,7 @@ TreeRows rows_in(const Mask& mask) {
 std::vector<Mask> trees_in(const Mask& mask) {
   const int side = std::max(mask.width_px(), mask.height_px());
   const Mask closed = close_disc(mask, std::max(1, static_cast<int>(std::lround(kLooseLeaves * side))));
-  std::vector<Mask> pieces = separate_pieces(closed, area_px(closed) / 20 + 1, Connectivity::eight);
+  std::vector<Mask> pieces = separate_pieces(closed, area_px(closed) / 20 + 1);
   if (pieces.empty()) return pieces;
   const MaskBox all = box_of(mask), largest = box_of(pieces.front());
   const double least_area = kLeastArea * static_cast<double>(area_px(pieces.front()));

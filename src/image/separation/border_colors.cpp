@@ -18,13 +18,6 @@ constexpr float kNearColor = 0.1f;      ///< of the colour that most of the bord
 constexpr double kOneColorShare = 0.7;  ///< of the border, near one colour: the ground is of that colour
 constexpr float kLeastTolerance = 0.04f, kMostTolerance = 0.12f;
 
-float quantile(std::vector<float>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 /// The two outermost rings of what is shown, by the angle at which its middle sees them.
 std::vector<PixelPlace> places_of_border(const Mask& shown) {
   const Mask inner = without(shown, [&] {

@@ -63,13 +63,6 @@ ShadowPixels half_transparent_areas(const DecodedPicture& picture) {
   return pixels;
 }
 
-float quantile_of(std::vector<float>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 /// Alpha of the drop shadow; 0 where there is none: half transparent areas of one colour beside what is
 /// opaque.
 float shadow_alpha(const DecodedPicture& picture) {
@@ -78,8 +71,8 @@ float shadow_alpha(const DecodedPicture& picture) {
   const auto half = static_cast<double>(pixels.alphas.size());
   if (opaque == 0 || half < kLeastShadow * opaque || half > 3 * opaque) return 0;
   for (std::vector<float>& channel : pixels.colors)
-    if (quantile_of(channel, 0.95) - quantile_of(channel, 0.05) > kShadowColors) return 0;
-  const float alpha = quantile_of(pixels.alphas, 0.95);
+    if (quantile(channel, 0.95) - quantile(channel, 0.05) > kShadowColors) return 0;
+  const float alpha = quantile(pixels.alphas, 0.95);
   return alpha > kOpaque ? alpha : 0;
 }
 

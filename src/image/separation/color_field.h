@@ -29,6 +29,15 @@ Channel make_channel(const DecodedPicture& picture, ValueOf value_of) {
   return channel;
 }
 
+/// The value that this share of the others, 0..1, do not exceed, rounded down to one of them; of at least one
+/// value.
+inline float quantile(std::vector<float>& values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 inline ColorValue color_of(const Rgba& rgba) { return {rgba[0], rgba[1], rgba[2]}; }
 
 /// The largest difference of a channel.

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <vector>
 
-#include <espalier/image/masks/morphology.h>
 #include <espalier/image/separation/coverage.h>
 #include <espalier/image/separation/mask_parts.h>
 
@@ -77,9 +76,7 @@ float strong_contrast(const Channel& contrast, float noise) {
   for (const float value : contrast.values)
     if (value > noise) values.push_back(value);
   if (values.empty()) return 0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+  return quantile(values, 0.9);
 }
 
 Plateaus find_plateaus(const DecodedPicture& picture, const Ground& ground) {

@@ -1,6 +1,7 @@
 // How much of each pixel the tree covers: the pixel as a mixture of the ground's colour and the tree's.
 // Porter, Duff, Compositing digital images, SIGGRAPH 1984. The tree's colour is that of its plateaus, pixels
 // whose neighbours have the same; beside a plateau of another colour, such as a trunk, it is that one's.
+// Of trees of many colours what lies within counts whole, the fainter the farther it is from all ground.
 #pragma once
 #include <espalier/image/separation/color_field.h>
 #include <espalier/image/separation/ground.h>

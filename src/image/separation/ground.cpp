@@ -147,9 +147,8 @@ float tolerance_of(const Ground& ground) {
     for (int x = 0; x < ground.contrast.width_px; ++x)
       if (ground.reached.get(x, y)) noise.push_back(ground.contrast.at(x, y));
   if (noise.empty()) return kLeastContrast;
-  const auto at = noise.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(noise.size() - 1));
-  std::nth_element(noise.begin(), at, noise.end());
-  return *at < kExact ? kLeastExactContrast : std::clamp(3 * *at, kLeastContrast, kMostContrast);
+  const float most = quantile(noise, 0.9);
+  return most < kExact ? kLeastExactContrast : std::clamp(3 * most, kLeastContrast, kMostContrast);
 }
 
 /// Seeds that a user names grow with the colour that they have.

@@ -11,8 +11,8 @@
 namespace espalier {
 
 /// How the tree is told from the background. automatic: labels where the picture holds labels; alpha where it
-/// carries information; else luminance (Otsu's threshold) where the picture has two tones; else what differs
-/// from the ground that the border shows.
+/// carries information; else luminance (Otsu's threshold) where a grey picture has two tones; else what
+/// differs from the ground that the border shows.
 enum class SeparationMethod { automatic, alpha, luminance, background };
 
 template <>

@@ -5,7 +5,6 @@
 
 #include <espalier/image/marks/lines.h>
 #include <espalier/image/marks/marks.h>
-#include <espalier/image/marks/pieces.h>
 
 namespace espalier {
 namespace {
@@ -137,17 +136,6 @@ TEST(Marks, EachKindCanBeKept) {
   EXPECT_EQ(without_marks(lined, {.lines = false}).tree, lined);
   EXPECT_EQ(without_marks(captioned, {.captions = false}).tree, captioned);
   EXPECT_EQ(without_marks(peopled, {.figures = false}).tree, peopled);
-}
-
-TEST(Pieces, AreAllThatIsSetOnceTheLargestFirst) {
-  Mask mask(64, 64);
-  draw_box(mask, 2, 2, 6, 6), draw_box(mask, 6, 6, 8, 8);  // joined by a corner
-  draw_box(mask, 20, 20, 60, 60);
-  const std::vector<Piece> pieces = pieces_of(mask);
-  ASSERT_EQ(pieces.size(), 2u);
-  EXPECT_EQ(pieces[0].area_px, 1600u);
-  EXPECT_EQ(pieces[1].area_px, 20u);
-  EXPECT_EQ(pieces[1].box.right, 8);
 }
 
 }  // namespace

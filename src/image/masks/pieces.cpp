@@ -2,7 +2,7 @@
 #include <limits>
 #include <numeric>
 
-#include <espalier/image/marks/pieces.h>
+#include <espalier/image/masks/pieces.h>
 
 namespace espalier {
 
@@ -25,17 +25,17 @@ std::size_t root_of(std::vector<std::size_t>& parents, std::size_t run) {
   return run;
 }
 
-/// For each run, the first run of its piece (Tarjan 1975).
-std::vector<std::size_t> roots_of_runs(const std::vector<PieceRun>& runs) {
+/// For each run, the first run of its piece (Tarjan 1975); `slack` is 1 where pixels touch by corners.
+std::vector<std::size_t> roots_of_runs(const std::vector<PieceRun>& runs, int slack) {
   std::vector<std::size_t> parents(runs.size());
   std::iota(parents.begin(), parents.end(), std::size_t{0});
   std::size_t above = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const PieceRun& run = runs[i];
-    while (above < i &&
-           (runs[above].y < run.y - 1 || (runs[above].y == run.y - 1 && runs[above].end < run.begin)))
+    while (above < i && (runs[above].y < run.y - 1 ||
+                         (runs[above].y == run.y - 1 && runs[above].end + slack <= run.begin)))
       ++above;
-    for (std::size_t j = above; j < i && runs[j].y == run.y - 1 && runs[j].begin <= run.end; ++j) {
+    for (std::size_t j = above; j < i && runs[j].y == run.y - 1 && runs[j].begin < run.end + slack; ++j) {
       const std::size_t a = root_of(parents, i), b = root_of(parents, j);
       parents[std::max(a, b)] = std::min(a, b);
     }
@@ -44,7 +44,7 @@ std::vector<std::size_t> roots_of_runs(const std::vector<PieceRun>& runs) {
   return parents;
 }
 
-void add_run(const PieceRun& run, Piece& piece) {
+void add_run(const PieceRun& run, MaskPiece& piece) {
   if (piece.runs.empty()) piece.box = {run.begin, run.end, run.y, run.y + 1};
   piece.box.left = std::min(piece.box.left, run.begin);
   piece.box.right = std::max(piece.box.right, run.end);
@@ -55,12 +55,12 @@ void add_run(const PieceRun& run, Piece& piece) {
 
 }  // namespace
 
-std::vector<Piece> pieces_of(const Mask& mask) {
+std::vector<MaskPiece> pieces_of(const Mask& mask, Connectivity connectivity) {
   constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   const std::vector<PieceRun> runs = runs_in(mask);
-  const std::vector<std::size_t> roots = roots_of_runs(runs);
+  const std::vector<std::size_t> roots = roots_of_runs(runs, connectivity == Connectivity::eight ? 1 : 0);
   std::vector<std::size_t> piece_of(runs.size(), kNone);
-  std::vector<Piece> pieces;
+  std::vector<MaskPiece> pieces;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     std::size_t& piece = piece_of[roots[i]];
     if (piece == kNone) {
@@ -70,8 +70,13 @@ std::vector<Piece> pieces_of(const Mask& mask) {
     add_run(runs[i], pieces[piece]);
   }
   std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const Piece& a, const Piece& b) { return a.area_px > b.area_px; });
+                   [](const MaskPiece& a, const MaskPiece& b) { return a.area_px > b.area_px; });
   return pieces;
+}
+
+void set_pixels(const MaskPiece& piece, Mask& mask) {
+  for (const PieceRun& run : piece.runs)
+    for (int x = run.begin; x < run.end; ++x) mask.set(x, run.y);
 }
 
 }  // namespace espalier

@@ -12,13 +12,17 @@ struct PieceRun {
   int y, begin, end;  ///< columns [begin, end)
 };
 
-struct Piece {
+struct MaskPiece {
   MaskBox box;
   std::size_t area_px = 0;
   std::vector<PieceRun> runs;
 };
 
-/// 8-connected, the largest first; of equal ones the upper, then the left.
-std::vector<Piece> pieces_of(const Mask& mask);
+enum class Connectivity { four, eight };
+
+/// The largest first; of equal ones the upper, then the left.
+std::vector<MaskPiece> pieces_of(const Mask& mask, Connectivity connectivity = Connectivity::eight);
+
+void set_pixels(const MaskPiece& piece, Mask& mask);
 
 }  // namespace espalier
