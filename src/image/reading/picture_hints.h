@@ -9,10 +9,10 @@ namespace espalier {
 
 struct PictureHints {
   double threshold = kHalfCovered;       ///< share of a pixel that the tree covers, from which it is tree
-  std::string ground_color, tree_color;  ///< #RRGGBB or R,G,B
+  std::string ground_color, tree_color;  ///< RRGGBB or R,G,B
   std::string region;                    ///< LEFT,TOP,WIDTH,HEIGHT
   std::string tree_seeds, ground_seeds;  ///< X,Y;X,Y
-  std::string label;                     ///< numbers or #RRGGBB, with commas between
+  std::string label;                     ///< numbers or RRGGBB, with commas between
   std::string keep_marks = "none";       ///< none, all, or of strips, lines, captions, figures
   std::string scale_bar;                 ///< PIXELS=METRES
   int tree = 0;                          ///< of several, counted from 1 as one reads; 0: none is chosen

@@ -26,7 +26,7 @@ std::optional<std::vector<int>> parse_numbers(std::string_view text) {
 }
 
 [[noreturn]] void refuse_color(const std::string& text) {
-  throw_input_error("got '{}', expected a colour: #RRGGBB, or R,G,B of 0 to 255", text);
+  throw_input_error("got '{}', expected a colour: RRGGBB, or R,G,B of 0 to 255", text);
 }
 
 bool is_inside(const PixelPlace& place, const PixelBox& box) {
@@ -73,14 +73,18 @@ void scale_place(double scale, int end_x, int end_y, PixelPlace& place) {
 
 }  // namespace
 
+std::optional<std::uint32_t> parse_hex_color(std::string_view text) {
+  if (text.starts_with('#')) text.remove_prefix(1);
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  if (text.size() != 6 || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
 ColorValue parse_hinted_color(const std::string& text) {
-  if (text.starts_with('#')) {
-    unsigned value = 0;
-    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
-    if (text.size() != 7 || error != std::errc() || end != text.data() + text.size()) refuse_color(text);
-    return {static_cast<float>(value >> 16) / 255, static_cast<float>(value >> 8 & 255) / 255,
-            static_cast<float>(value & 255) / 255};
-  }
+  if (const auto value = parse_hex_color(text))
+    return {static_cast<float>(*value >> 16) / 255, static_cast<float>(*value >> 8 & 255) / 255,
+            static_cast<float>(*value & 255) / 255};
   const auto numbers = parse_numbers(text);
   if (!numbers || numbers->size() != 3 ||
       std::any_of(numbers->begin(), numbers->end(), [](int number) { return number < 0 || number > 255; }))

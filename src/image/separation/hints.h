@@ -1,7 +1,10 @@
 // What a user says of a picture, as words: colours, places, a part of it. All throw InputError: got,
 // expected.
 #pragma once
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <espalier/image/pictures/decode.h>
@@ -9,7 +12,10 @@
 
 namespace espalier {
 
-/// "#1a2b3c", or "R,G,B" of 0 to 255.
+/// Red, green and blue as one number, of "1a2b3c"; a "#" before it may be there, though a shell takes it for
+/// a comment.
+std::optional<std::uint32_t> parse_hex_color(std::string_view text);
+/// "1a2b3c", or "R,G,B" of 0 to 255.
 ColorValue parse_hinted_color(const std::string& text);
 /// "LEFT,TOP,WIDTH,HEIGHT".
 PixelBox parse_region(const std::string& text);

@@ -8,6 +8,7 @@
 
 #include <espalier/core/error.h>
 #include <espalier/image/masks/distance_field.h>
+#include <espalier/image/separation/hints.h>
 #include <espalier/image/separation/labels.h>
 #include <espalier/image/separation/mask_parts.h>
 
@@ -148,7 +149,7 @@ std::optional<std::size_t> number_of(const LabelPicture& picture, Code code) {
 std::string name_of_code(const LabelPicture& picture, Code code) {
   if (picture.is_grey) return fmt::format("{}", code);
   const auto number = number_of(picture, code);
-  return number ? fmt::format("{} (#{:06x})", *number, code) : fmt::format("#{:06x}", code);
+  return number ? fmt::format("{} ({:06x})", *number, code) : fmt::format("{:06x}", code);
 }
 
 double share_of(const LabelPicture& picture, Code code) {
@@ -176,17 +177,18 @@ std::vector<Code> all_codes(const LabelPicture& picture) {
   return codes;
 }
 
-/// Of "7" or "#008000".
+std::optional<Code> code_of_color(const LabelPicture& picture, Code color) {
+  if (!picture.is_grey) return color;
+  return color >> 16 == (color & 0xff) ? std::optional<Code>(color & 0xff) : std::nullopt;
+}
+
+/// Of "7", "008000" or "#008000".
 std::optional<Code> code_named(const LabelPicture& picture, std::string_view word) {
-  const bool is_color = word.starts_with('#');
-  if (is_color) word.remove_prefix(1);
+  if (const auto color = parse_hex_color(word)) return code_of_color(picture, *color);
   Code value = 0;
-  const auto [end, error] =
-      std::from_chars(word.data(), word.data() + word.size(), value, is_color ? 16 : 10);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  if (is_color && picture.is_grey)
-    return value >> 16 == (value & 0xff) ? std::optional<Code>(value & 0xff) : std::nullopt;
-  if (is_color || picture.is_grey) return value;
+  if (picture.is_grey) return value;
   if (value >= picture.palette.size()) return std::nullopt;
   const auto& [red, green, blue] = picture.palette[value];
   const auto code = static_cast<Code>(red << 16 | green << 8 | blue);

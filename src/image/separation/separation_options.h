@@ -50,8 +50,7 @@ struct SeparationOptions {
   std::optional<ColorValue> ground_color, tree_color;
   std::optional<PixelBox> region;  ///< the part of the picture that shows the tree
   std::vector<PixelPlace> tree_seeds, ground_seeds;
-  std::string
-      label;  ///< of a picture of labels: numbers or #RRGGBB, with commas between; empty: the only one
+  std::string label;  ///< of a picture of labels: numbers or RRGGBB, with commas between; empty: the only one
   bool keep_strips = false;  ///< strips along the edges are part of the picture
 };
 

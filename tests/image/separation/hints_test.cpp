@@ -20,15 +20,16 @@ std::string refusal(Parse parse, const std::string& text) {
   return "";
 }
 
-TEST(Hints, AColorIsTheSameInBothNotations) {
-  const ColorValue hex = parse_hinted_color("#1A2b3c"), numbers = parse_hinted_color("26,43,60");
+TEST(Hints, AColorIsTheSameInEachNotation) {
+  const ColorValue hex = parse_hinted_color("1A2b3c"), numbers = parse_hinted_color("26,43,60");
   EXPECT_EQ(hex, numbers);
+  EXPECT_EQ(parse_hinted_color("#1A2b3c"), numbers);
   EXPECT_FLOAT_EQ(hex[0], 26.0f / 255);
   EXPECT_FLOAT_EQ(hex[2], 60.0f / 255);
 }
 
 TEST(Hints, WhatIsNoColorIsRefusedWithWhatIsOne) {
-  for (const char* text : {"", "#12345", "#1234567", "#12345g", "1,2", "1,2,3,4", "1,2,256", "-1,2,3", "red"})
+  for (const char* text : {"", "#12345", "#1234567", "12345g", "1,2", "1,2,3,4", "1,2,256", "-1,2,3", "red"})
     EXPECT_THAT(refusal(parse_hinted_color, text), AllOf(HasSubstr("got '"), HasSubstr("expected"))) << text;
 }
 
