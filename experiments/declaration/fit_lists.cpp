@@ -8,6 +8,7 @@
 #include <espalier/experiments/declaration/experiment_keys.h>
 #include <espalier/experiments/declaration/fit_lists.h>
 #include <espalier/experiments/declaration/known_truth.h>
+#include <espalier/experiments/declaration/target_files.h>
 #include <espalier/experiments/declaration/toml_values.h>
 #include <espalier/fitting/optimizers/search_method.h>
 #include <espalier/fitting/record/fit_options.h>
@@ -64,12 +65,21 @@ std::string describe_view(const ViewRecord& record) {
   return words;
 }
 
-/// A bundled target by name, or a picture by its path from the working directory or the experiment's file.
-fs::path find_picture(const Element& element, const std::string& name) {
+/// Enters where the view's picture lies: a bundled target by name, or a picture by its path from the working
+/// directory or the experiment's file; or the copy that the experiment's directory keeps, where that file is
+/// in it.
+void find_picture(const Element& element, const fs::path& kept_as, ViewRecord& view) {
+  const std::string name = view.picture.string();
   const fs::path bundled = data_path_or_first("targets") / (name + ".png");
   std::error_code error;
   for (const fs::path& path : {bundled, fs::path(name), fs::path(beside_the_file(element.section(), name))})
-    if (fs::is_regular_file(path, error)) return fs::absolute(path);
+    if (fs::is_regular_file(path, error)) {
+      view.picture = fs::absolute(path);
+      return;
+    }
+  view.copy = beside_the_file(element.section(), kept_as.string());
+  view.picture = fs::absolute(view.picture);
+  if (fs::is_regular_file(view.copy, error)) return;
   throw_input_error("{}: got '{}', expected a picture or a bundled target like '{}'", element.place(), name,
                     closest_name(name, bundled_targets()));
 }
@@ -87,14 +97,11 @@ std::vector<ViewRecord> drawn_views(const Element& element, const View& front) {
 std::vector<ViewRecord> pictured_views(const Element& element, const View& front) {
   const TomlSection& section = element.section();
   std::vector<ViewRecord> views;
-  if (section.has("picture") || !section.has("views"))
-    views.push_back({find_picture(element, section.text("picture")), front});
+  if (section.has("picture") || !section.has("views")) views.push_back({section.text("picture"), front});
   if (!section.has("views")) return views;
   filled_array(section, "views");
-  for (const std::string& text : section.texts("views")) {
+  for (const std::string& text : section.texts("views"))
     views.push_back(located(section, "views", [&] { return parse_view(text); }));
-    views.back().picture = find_picture(element, views.back().picture);
-  }
   return views;
 }
 
@@ -113,6 +120,10 @@ TargetDeclaration read_target_declaration(const Element& element, const View& fr
   }
   target.views = pictured_views(element, front);
   target.name = section.text_or("name", target.views[0].picture.stem());
+  for (std::size_t i = 0; i < target.views.size(); ++i) {
+    ViewRecord& view = target.views[i];
+    find_picture(element, target_file(target.name, i, view.picture.extension()), view);
+  }
   return target;
 }
 

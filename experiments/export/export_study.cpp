@@ -9,6 +9,7 @@
 #include <espalier/core/files.h>
 #include <espalier/experiments/analysis/finished_fits.h>
 #include <espalier/experiments/declaration/experiment.h>
+#include <espalier/experiments/declaration/target_files.h>
 #include <espalier/experiments/export/export_study.h>
 #include <espalier/experiments/runner/experiment_directory.h>
 #include <espalier/experiments/runner/plan.h>

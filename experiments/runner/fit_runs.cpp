@@ -4,11 +4,13 @@
 
 #include <espalier/core/error.h>
 #include <espalier/experiments/declaration/known_truth.h>
-#include <espalier/experiments/runner/drawn_targets.h>
+#include <espalier/experiments/declaration/target_files.h>
 #include <espalier/experiments/runner/fit_runs.h>
+#include <espalier/experiments/runner/kept_targets.h>
 #include <espalier/experiments/runner/unseen_side.h>
 #include <espalier/experiments/runner/unseen_trees.h>
 #include <espalier/fitting/run/fit.h>
+#include <espalier/fitting/run/run_pictures.h>
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/models/models.h>
 
@@ -27,13 +29,23 @@ struct FitCell {
   int unseen_seeds = 0, siblings = 0, threads = 1;
 };
 
+/// A view of a record on disk with the picture's place as in `asked` where both are of one picture: the same
+/// bytes by the same name. Runs of earlier versions do not know the bytes: their picture is where it was.
+ViewRecord with_place_of(const ViewRecord& asked, ViewRecord on_disk) {
+  if (on_disk.content && on_disk.picture.filename() == asked.picture.filename() &&
+      content_of(asked.file()) == *on_disk.content)
+    on_disk.picture = asked.picture;
+  on_disk.content = asked.content;
+  on_disk.kept_as = asked.kept_as;
+  return on_disk;
+}
+
 /// Whether a record on disk asks for what `request` does: it also knows its target's hash, its versions, what
-/// freedom its kind of tree has and, where a user resumed it alone, what its pictures hold.
+/// freedom its kind of tree has and what its pictures hold.
 bool same_request(FitRecord on_disk, FitRecord request) {
-  for (FitRecord* record : {&on_disk, &request}) {
-    record->target_hash.clear(), record->versions.clear();
-    for (ViewRecord& view : record->views) view.content.reset();
-  }
+  for (FitRecord* record : {&on_disk, &request}) record->target_hash.clear(), record->versions.clear();
+  for (std::size_t i = 0; i < std::min(on_disk.views.size(), request.views.size()); ++i)
+    on_disk.views[i] = with_place_of(request.views[i], on_disk.views[i]);
   if (request.freedom == kFreedomOfKind) request.freedom = on_disk.freedom;
   return record_to_toml(on_disk, std::nullopt) == record_to_toml(request, std::nullopt);
 }
@@ -96,16 +108,23 @@ Measured measure(const FitResult& result, const FitCell& cell) {
   return measured;
 }
 
+/// Says of the pictures that the experiment keeps one copy for many runs.
+FitRecord record_in(const fs::path& directory, const FitCell& cell) {
+  FitRecord record = cell.record;
+  for (ViewRecord& view : record.views) view.kept_as = view.copy.lexically_relative(fs::absolute(directory));
+  return record;
+}
+
 std::optional<Measured> run_cell(const FitCell& cell, const fs::path& directory, const RunContext& context) {
+  const FitRecord record = record_in(directory, cell);
   FitExecution options;
   options.threads = cell.threads;
-  options.keep_pictures = false;  // they are the experiment's, and one for many runs
-  options.resume = can_resume(directory, cell.record);
+  options.resume = can_resume(directory, record);
   options.stop_requested = context.stop_requested;
   options.on_progress = [&](const FitProgress& progress) {
-    context.on_progress(share_done(progress, cell.record.budget));
+    context.on_progress(share_done(progress, record.budget));
   };
-  const FitResult result = fit(cell.record, directory, options);
+  const FitResult result = fit(record, directory, options);
   if (result.stopped_by == FitStop::interrupted) return std::nullopt;
   return measure(result, cell);
 }
@@ -224,7 +243,7 @@ Plan plan_fits(const FitsDeclaration& fits, const fs::path& directory) {
     plan.result_columns.emplace_back(column);
   for (const SideColumn& column : kSideColumns) plan.result_columns.emplace_back(column.name);
   plan.time_columns = {"seconds", "evaluations", "branch_steps"};
-  add_runs(all_cells(fits, draw_targets(fits, directory)), plan);
+  add_runs(all_cells(fits, keep_targets(fits, directory)), plan);
   return plan;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <espalier/core/files.h>
+#include <espalier/experiments/declaration/target_files.h>
 #include <espalier/experiments/growth/growth_phases.h>
 #include <espalier/experiments/runner/csv.h>
 #include <espalier/experiments/runner/growth_runs.h>

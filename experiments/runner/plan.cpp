@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -12,14 +11,6 @@ namespace espalier {
 std::string table_number(double value) { return fmt::format("{:.6g}", value); }
 
 std::string table_cell(double value) { return std::isnan(value) ? "" : table_number(value); }
-
-std::string directory_name(const std::string& text) {
-  std::string name = text;
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string("_.=-").find(c) == std::string::npos)
-      c = '-';
-  return name;
-}
 
 void make_names_unique(Plan& plan) {
   std::map<std::string, int> uses;

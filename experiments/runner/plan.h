@@ -47,9 +47,6 @@ std::string table_number(double value);
 /// The same, and an empty cell for NaN.
 std::string table_cell(double value);
 
-/// Letters, digits, '_', '.', '=' and '-'; all else becomes '-'.
-std::string directory_name(const std::string& text);
-
 /// Appends "-2", "-3", … to names that were there before.
 void make_names_unique(Plan& plan);
 

@@ -8,10 +8,11 @@
 #include <numeric>
 #include <thread>
 
+#include <espalier/experiments/declaration/target_files.h>
 #include <espalier/experiments/posteriors/target_posteriors.h>
-#include <espalier/experiments/runner/drawn_targets.h>
 #include <espalier/experiments/runner/fit_runs.h>
 #include <espalier/experiments/runner/growth_runs.h>
+#include <espalier/experiments/runner/kept_targets.h>
 #include <espalier/experiments/runner/move_runs.h>
 #include <espalier/experiments/runner/picture_runs.h>
 #include <espalier/experiments/runner/run_experiment.h>
@@ -138,11 +139,11 @@ void declare(const fs::path& directory, const Experiment& experiment) {
 /// The names of the targets' directories, which differ as their names do.
 std::vector<PosteriorTarget> posterior_targets(const FitsDeclaration& fits, const fs::path& directory) {
   std::vector<PosteriorTarget> targets;
-  for (const ReadyTarget& target : draw_targets(fits, directory)) {
+  for (const ReadyTarget& target : keep_targets(fits, directory)) {
     PosteriorTarget& next = targets.emplace_back();
     next.name = target.declaration.name;
     next.directory = directory_name(next.name);
-    next.picture = target.views.front().picture;
+    next.picture = target.views.front().file();
     next.height_m = target.height_m.value_or(fits.record.height_m.value_or(next.height_m));
     if (!target.declaration.species.empty())
       next.truth = TrueTree{target.declaration.species, target.declaration.seed};

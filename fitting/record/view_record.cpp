@@ -57,8 +57,8 @@ void check_view(const ViewRecord& view) {
 }
 
 ViewRecord read_view(const TomlSection& section) {
-  section.expect_only(
-      {"picture", "azimuth_deg", "elevation_deg", "perspective", "field_of_view_deg", "bytes", "hash"});
+  section.expect_only({"picture", "azimuth_deg", "elevation_deg", "perspective", "field_of_view_deg", "bytes",
+                       "hash", "copy"});
   ViewRecord record{section.text("picture"), {}};
   record.view.azimuth_deg = static_cast<float>(section.number("azimuth_deg"));
   record.view.elevation_deg = static_cast<float>(section.number("elevation_deg"));
@@ -66,6 +66,7 @@ ViewRecord read_view(const TomlSection& section) {
   record.view.field_of_view_deg = static_cast<float>(section.number("field_of_view_deg"));
   if (section.has("bytes") || section.has("hash"))
     record.content = FileContent{section.whole("bytes"), section.text("hash")};
+  record.kept_as = section.text_or("copy", "");
   with_places([&](const std::string&) { return toml_location(section.source, section.table) + ": views"; },
               [&] { check_view(record); });
   return record;
@@ -76,12 +77,15 @@ std::string view_to_toml(const ViewRecord& view) {
       view.content ? fmt::format("bytes = {}  # of the picture, of which the run keeps a copy\nhash = {}\n",
                                  view.content->bytes, quote_toml(view.content->hash))
                    : "";
+  const std::string copy =
+      view.kept_as.empty() ? ""
+                           : fmt::format("copy = {}  # from here on\n", quote_toml(view.kept_as.string()));
   return fmt::format(
       "\n[[views]]\npicture = {}\nazimuth_deg = {}\nelevation_deg = {}\nperspective = {}\n"
-      "field_of_view_deg = {}\n{}",
+      "field_of_view_deg = {}\n{}{}",
       quote_toml(view.picture.string()), toml_number(view.view.azimuth_deg),
       toml_number(view.view.elevation_deg), view.view.projection == Projection::perspective,
-      toml_number(view.view.field_of_view_deg), content);
+      toml_number(view.view.field_of_view_deg), content, copy);
 }
 
 }  // namespace espalier

@@ -23,7 +23,9 @@ struct ViewRecord {
   std::filesystem::path picture;  ///< as it was given; what is fitted has its name from it
   View view;
   std::optional<FileContent> content = {};  ///< once a run keeps the picture
-  std::filesystem::path copy = {};          ///< read instead of `picture`, not recorded; empty: none
+  std::filesystem::path kept_as =
+      {};                           ///< that copy, from the run's directory on; empty: in it (run_pictures.h)
+  std::filesystem::path copy = {};  ///< read instead of `picture`, not recorded; empty: none
 
   const std::filesystem::path& file() const { return copy.empty() ? picture : copy; }
 };

@@ -75,7 +75,7 @@ FitResult fit(const FitRecord& given, const fs::path& directory, const FitExecut
   check_given(given, options);
   check_growth_memory(given.growth, threads_of(options), machine_memory_bytes());
   FitRecord record = record_of(given, options);
-  if (options.resume && options.keep_pictures) find_pictures(record, directory);
+  if (options.resume) find_pictures(record, directory);
   FitTask task = make_task(record, options.model);
   task.make_renderer = options.make_renderer;
   const ParameterTable& table = task.model->table();
@@ -85,7 +85,7 @@ FitResult fit(const FitRecord& given, const fs::path& directory, const FitExecut
   const FitPlan plan = plan_of(record, task);
   settle_branches(plan, task);
   record.freedom = plan.freedom;
-  if (options.keep_pictures) note_contents(record);
+  note_contents(record);
   begin_run_directory(directory, {.record = record, .task = task});
   read_kept_pictures(record, directory);
   for (const std::string& warning : task.warnings) options.on_warning(warning);

@@ -25,7 +25,6 @@ struct FitProgress {
 struct FitExecution {
   int threads = 0;                       ///< 0: one for each processor
   bool resume = false;                   ///< go on with the run in the directory
-  bool keep_pictures = true;             ///< copies of them in the directory
   const Model* model = nullptr;          ///< instead of the record's model by name; not owned
   const Optimizer* optimizer = nullptr;  ///< instead of the record's optimiser by name; not owned
   RendererFactory make_renderer = make_scanline_renderer;

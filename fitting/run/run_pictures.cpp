@@ -17,13 +17,6 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-FileContent content_of(const fs::path& path) {
-  const std::string bytes = read_file(path);
-  std::uint64_t hash = 0xcbf29ce484222325ull;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ull;
-  return {static_cast<std::int64_t>(bytes.size()), fmt::format("{:016x}", hash)};
-}
-
 std::string in_words(const FileContent& content) {
   return fmt::format("{} bytes (hash {})", content.bytes, content.hash);
 }
@@ -55,7 +48,15 @@ fs::path found_picture(const ViewRecord& view, const fs::path& directory, std::s
 
 }  // namespace
 
+FileContent content_of(const fs::path& file) {
+  const std::string bytes = read_file(file);
+  std::uint64_t hash = 0xcbf29ce484222325ull;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ull;
+  return {static_cast<std::int64_t>(bytes.size()), fmt::format("{:016x}", hash)};
+}
+
 std::string kept_picture_name(const ViewRecord& view, std::size_t index) {
+  if (!view.kept_as.empty()) return view.kept_as.string();
   const std::string number = index == 0 ? "" : fmt::format("_{}", index + 1);
   return "picture" + number + view.picture.extension().string();
 }

@@ -10,7 +10,11 @@
 
 namespace espalier {
 
-/// "picture.png" for the first view, "picture_2.jpg" for the second: the ending is that of the picture.
+/// Throws InputError where the file cannot be read.
+FileContent content_of(const std::filesystem::path& file);
+
+/// From the run's directory on: as the view says, or else "picture.png" for the first view, "picture_2.jpg"
+/// for the second: the ending is that of the picture.
 std::string kept_picture_name(const ViewRecord& view, std::size_t index);
 
 /// Says of each view of a record that was read from `directory` which file to read: that of `given`, which

@@ -116,6 +116,7 @@ FitRecord repeated_record(const FitArguments& arguments) {
   check_run_directory(arguments.repeat);
   auto [record, outcome] = read_record(fs::path(arguments.repeat) / "run.toml");
   find_pictures(record, arguments.repeat, arguments.pictures);
+  for (ViewRecord& view : record.views) view.kept_as.clear();  // it is a run of its own
   if (outcome)
     record.budget = {.evaluations = outcome->evaluations,
                      .seconds = 0,
