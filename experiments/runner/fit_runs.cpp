@@ -10,6 +10,7 @@
 #include <espalier/experiments/runner/unseen_side.h>
 #include <espalier/experiments/runner/unseen_trees.h>
 #include <espalier/fitting/run/fit.h>
+#include <espalier/fitting/run/run_files.h>
 #include <espalier/fitting/run/run_pictures.h>
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/models/models.h>
@@ -40,9 +41,14 @@ ViewRecord with_place_of(const ViewRecord& asked, ViewRecord on_disk) {
   return on_disk;
 }
 
+KeptFiles files_of(const FitRecord& record) { return files_to_keep(record, model_by_name(record.model)); }
+
 /// Whether a record on disk asks for what `request` does: it also knows its target's hash, its versions, what
-/// freedom its kind of tree has and what its pictures hold.
+/// freedom its kind of tree has, what its pictures hold and where its copies of other files are.
 bool same_request(FitRecord on_disk, FitRecord request) {
+  KeptFiles kept = files_of(on_disk), asked = files_of(request);
+  if (kept.files != asked.files) return false;
+  on_disk = std::move(kept.record), request = std::move(asked.record);
   for (FitRecord* record : {&on_disk, &request}) record->target_hash.clear(), record->versions.clear();
   for (std::size_t i = 0; i < std::min(on_disk.views.size(), request.views.size()); ++i)
     on_disk.views[i] = with_place_of(request.views[i], on_disk.views[i]);

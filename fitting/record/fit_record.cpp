@@ -175,6 +175,18 @@ void check_ends(const FitBudget& budget) {
                       "got rounds without an end, expected a number of them or of seconds");
 }
 
+/// Files that the run keeps are named from its directory on; others as the user gave them.
+void name_from(const std::filesystem::path& directory, const FitOption& option, FitRecord& record) {
+  const auto found = [&](const std::string& name) {
+    const std::filesystem::path kept = directory / name;
+    std::error_code none;
+    return std::filesystem::is_regular_file(kept, none) ? kept.string() : name;
+  };
+  if (option.field == "model") record.model = model_from(directory, record.model);
+  if (option.field == "start") record.start = start_with(record.start, found);
+  if (option.field == "species" && !record.species.empty()) record.species = found(record.species);
+}
+
 }  // namespace
 
 void check_record(const FitRecord& record) {
@@ -205,7 +217,10 @@ RecordedRun read_record(const std::filesystem::path& path) {
     return file.place_of(option ? option->key : field);
   };
   with_places(place, [&] {
-    for (const FitOption& option : fit_options()) read_option(file, option, record);
+    for (const FitOption& option : fit_options()) {
+      read_option(file, option, record);
+      name_from(path.parent_path(), option, record);
+    }
     check_record(record);
   });
   read_versions(file.root().section("versions"), record);

@@ -89,7 +89,8 @@ struct RecordedRun {
   std::optional<FitOutcome> outcome;
 };
 
-/// Reads run.toml and checks it. Throws InputError with file, line, key, got and expected.
+/// Reads run.toml and checks it; files that it names from its directory on, which the run keeps, have that
+/// before them. Throws InputError with file, line, key, got and expected.
 RecordedRun read_record(const std::filesystem::path& path);
 
 }  // namespace espalier

@@ -58,6 +58,14 @@ StartNames parse_start(const std::string& text) {
 
 bool is_automatic(const StartNames& start) { return start.source == StartSource::bundled; }
 
+std::string start_with(const std::string& text,
+                       const std::function<std::string(const std::string&)>& change) {
+  StartNames start = parse_start(text);
+  if (start.source != StartSource::named) return text;
+  for (std::string& name : start.presets) name = change(name);
+  return fmt::format("{}", fmt::join(start.presets, ","));
+}
+
 std::string start_without(const std::string& text, const std::string& preset) {
   StartNames start = parse_start(text);
   if (start.source == StartSource::bundled) return fmt::format("{},-{}", text, preset);

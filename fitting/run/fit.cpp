@@ -3,6 +3,7 @@
 #include <espalier/fitting/record/species_components.h>
 #include <espalier/fitting/run/fit.h>
 #include <espalier/fitting/run/fit_run.h>
+#include <espalier/fitting/run/run_files.h>
 #include <espalier/fitting/run/run_pictures.h>
 #include <espalier/fitting/search/fit_objective.h>
 #include <espalier/fitting/starts/fit_plan.h>
@@ -86,7 +87,9 @@ FitResult fit(const FitRecord& given, const fs::path& directory, const FitExecut
   settle_branches(plan, task);
   record.freedom = plan.freedom;
   note_contents(record);
-  begin_run_directory(directory, {.record = record, .task = task});
+  const KeptFiles kept = files_to_keep(record, *task.model);
+  record = kept.record;
+  begin_run_directory(directory, {.record = record, .task = task}, kept.files);
   read_kept_pictures(record, directory);
   for (const std::string& warning : task.warnings) options.on_warning(warning);
   return FitRun(record, task, plan, directory, options).run(species);

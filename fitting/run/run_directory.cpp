@@ -65,6 +65,12 @@ std::string best_to_toml(const RunState& state) {
       state.task.model->table());
 }
 
+/// An L-system that the run keeps is named from its directory on.
+std::string model_seen_from_the_archive(const std::string& model) {
+  const bool is_kept = fs::path(model).has_parent_path() && fs::path(model).is_relative();
+  return is_kept ? (".." / fs::path(model)).string() : model;
+}
+
 std::string archived_to_toml(const RunState& state, std::size_t index) {
   const ArchivedSolution& solution = state.archive->solutions()[index];
   Preset preset;
@@ -72,7 +78,7 @@ std::string archived_to_toml(const RunState& state, std::size_t index) {
   preset.description =
       fmt::format("solution {} of the search: fitness {:.4f}, {:.2f} from the best", index + 1,
                   1 - solution.score, distance_between(solution, state.archive->solutions().front()));
-  preset.model = state.record.model;
+  preset.model = model_seen_from_the_archive(state.record.model);
   preset.values = solution.values;
   preset.overrides = state.task.overrides;
   preset.grown_into = grown_into(state);
@@ -179,13 +185,15 @@ void check_run_directory(const fs::path& directory) {
     throw_input_error("{}: got a directory without run.toml, expected that of a run", directory.string());
 }
 
-void begin_run_directory(const fs::path& directory, const RunState& state) {
+void begin_run_directory(const fs::path& directory, const RunState& state,
+                         const std::vector<RunFile>& files) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error)
     throw_input_error("{}: got '{}', expected a directory that can be made", directory.string(),
                       error.message());
   keep_pictures(state.record, directory);
+  keep_files(files, directory);
   write_file_atomically(directory / "run.toml", record_to_toml(state.record, std::nullopt));
   for (std::size_t i = 0; i < state.task.views.size(); ++i)
     write_mask_png(numbered(directory, "target", i), state.task.views[i].target.mask());

@@ -10,6 +10,7 @@
 #include <espalier/fitting/record/fit_record.h>
 #include <espalier/fitting/run/full_size.h>
 #include <espalier/fitting/run/plant_portrait.h>
+#include <espalier/fitting/run/run_files.h>
 #include <espalier/fitting/search/logged_scorer.h>
 #include <espalier/fitting/search/solution_archive.h>
 #include <espalier/fitting/search/trace.h>
@@ -64,9 +65,10 @@ void check_new_directory(const std::filesystem::path& directory);
 /// Throws InputError unless it holds a run that can go on.
 void check_run_directory(const std::filesystem::path& directory);
 
-/// Makes the directory and writes the pictures, run.toml and the target masks. Throws InputError where it
-/// cannot.
-void begin_run_directory(const std::filesystem::path& directory, const RunState& state);
+/// Makes the directory and writes the pictures, the files, run.toml and the target masks. Throws InputError
+/// where it cannot.
+void begin_run_directory(const std::filesystem::path& directory, const RunState& state,
+                         const std::vector<RunFile>& files);
 
 /// Draws the best candidate, counts where Embree disagrees, and replaces all files but the log.
 void write_run_directory(const std::filesystem::path& directory, RunState& state);

@@ -8,6 +8,7 @@
 #include <espalier/fitting/starts/species_range.h>
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/image/reading/roots.h>
+#include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 
 namespace espalier {
@@ -93,7 +94,7 @@ class Planner {
   /// After the picture's ranges, which give way to the species'.
   void stay_with_species() {
     Preset species = in_field("species", [&] { return load_preset(record_.species); });
-    if (species.model != table_.model)
+    if (!is_same_model(species.model, table_.model))
       throw_field_error("species", "got '{}' of model {}, expected a preset of {}", record_.species,
                         species.model, table_.model);
     prepare_start(*task_.model, record_.growth, height_m_, task_.plant_seeds.front(), species.values);

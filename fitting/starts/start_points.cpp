@@ -6,6 +6,7 @@
 #include <espalier/fitting/starts/random_starts.h>
 #include <espalier/fitting/starts/start_points.h>
 #include <espalier/fitting/starts/thinning.h>
+#include <espalier/models/models.h>
 #include <espalier/models/preset.h>
 
 namespace espalier {
@@ -53,7 +54,7 @@ std::vector<StartPoint> presets_as_written(const ParameterTable& table, const St
   const bool are_named = start.source == StartSource::named;
   for (const std::string& name : are_named ? start.presets : bundled_without(start.left_out)) {
     Preset preset = in_field("start", [&] { return load_preset(name); });
-    if (preset.model == table.model)
+    if (is_same_model(preset.model, table.model))
       points.push_back({preset.name, std::move(preset.values), std::move(preset.overrides)});
     else if (are_named)
       throw_field_error("start", "got '{}' of model {}, expected a preset of {}", name, preset.model,

@@ -34,6 +34,18 @@ const Model& model_by_name(const std::string& name) {
   throw_input_error("got model '{}', expected an .lsys file or one of: {}", name, fmt::join(known, ", "));
 }
 
+std::string model_from(const std::filesystem::path& folder, const std::string& name) {
+  if (!name.ends_with(".lsys")) return name;
+  const std::filesystem::path path = (folder / name).lexically_normal();
+  std::error_code none;
+  return std::filesystem::is_regular_file(path, none) ? path.string() : name;
+}
+
+bool is_same_model(const std::string& a, const std::string& b) {
+  std::error_code none;
+  return a == b || (a.ends_with(".lsys") && b.ends_with(".lsys") && std::filesystem::equivalent(a, b, none));
+}
+
 std::vector<std::string> model_names() {
   std::vector<std::string> names;
   for (const ModelFunction model : kModels) names.push_back(model().table().model);

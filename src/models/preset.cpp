@@ -66,8 +66,9 @@ Preset load_defaults(const toml::table& document, const PresetSource& source) {
   if (!model)
     throw_input_error("{}: got no key 'model' or 'extends', expected model = \"{}\"", source.label,
                       fmt::join(model_names(), "\" or \""));
+  const std::string found = model_from(source.folder, *model);
   try {
-    return {"", "", *model, model_by_name(*model).table().defaults()};
+    return {"", "", found, model_by_name(found).table().defaults()};
   } catch (const InputError& error) {
     throw_input_error("{}: key 'model': {}", toml_location(source.label, *document.get("model")),
                       error.what());
@@ -93,7 +94,7 @@ Preset load_base(const toml::table& document, const PresetSource& source, Chain&
                       *extends);
   Preset base = load_chain(base_source, chain);
   const auto model = read_text(document, source.label, "model");
-  if (model && *model != base.model)
+  if (model && !is_same_model(model_from(source.folder, *model), base.model))
     throw_input_error("{}: key 'model': got '{}', expected '{}' as in '{}'",
                       toml_location(source.label, *document.get("model")), *model, base.model, *extends);
   return base;

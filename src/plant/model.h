@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -69,6 +70,8 @@ class Model {
  public:
   virtual ~Model() = default;
   virtual const ParameterTable& table() const = 0;
+  /// Those of the user's that it was read from: the model's own first, the others in the same folder.
+  virtual std::vector<std::filesystem::path> files() const { return {}; }
   /// Values that grow nearly the same silhouettes with `levels` levels of branching, which are at least as
   /// many as `values` have: what two plants of different depth are blended by. A model without levels has
   /// none to add.

@@ -58,12 +58,6 @@ struct Pair {
   const Model& model;
 };
 
-/// One file may have two paths.
-bool is_same_model(const std::string& a, const std::string& b) {
-  std::error_code none;
-  return a == b || (a.ends_with(".lsys") && b.ends_with(".lsys") && std::filesystem::equivalent(a, b, none));
-}
-
 Pair load_pair(const BlendOptions& options) {
   Preset a = load_preset(options.a), b = load_preset(options.b);
   if (!is_same_model(a.model, b.model))

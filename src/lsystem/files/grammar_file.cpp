@@ -24,7 +24,10 @@ Grammar read_grammar(const std::string& path, bool may_have_plants) {
   const fs::path file = path;
   const auto source =
       std::make_shared<Source>(Source{path, file.parent_path(), read_file(file), true, may_have_plants});
-  return with_plants(parse_statements(source, file.stem().string(), true));
+  source->files->push_back(file);
+  Grammar grammar = with_plants(parse_statements(source, file.stem().string(), true));
+  grammar.files = *source->files;
+  return grammar;
 }
 
 Grammar parse_grammar(const std::string& text, const std::string& label, const fs::path& folder) {

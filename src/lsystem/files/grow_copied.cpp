@@ -57,6 +57,8 @@ std::shared_ptr<const JointedPlant> grow_copied(const PlantDeclaration& declarat
     if (!file.ends_with(".lsys"))
       throw_input_error("got file \"{}\", expected one that ends with .lsys", file);
     grammar = read_grammar(file_beside(file, *position.source).string(), false);
+    ReadFiles& files = *position.source->files;
+    files.insert(files.end(), grammar->files.begin(), grammar->files.end());
   } catch (const InputError& error) {
     throw_at(position, "{}", error.what());
   }

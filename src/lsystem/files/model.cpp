@@ -73,6 +73,8 @@ class LsystemModel : public Model {
 
   const ParameterTable& table() const override { return table_; }
 
+  std::vector<std::filesystem::path> files() const override { return grammar_.files; }
+
   /// Nothing is known before it is derived; the budget is kept while it is.
   GrowthEstimate estimate(std::span<const double>) const override { return {1, 0, false}; }
 

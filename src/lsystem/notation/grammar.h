@@ -122,6 +122,7 @@ struct Grammar {
   bool uses_light = false;
   std::shared_ptr<const Appearance> appearance;
   bool follow_branches = false;        ///< right contexts look into branches too
+  ReadFiles files;                     ///< none of a text, as the bundled ones are
   std::optional<bool> leafy_segments;  ///< none: the file does not say, and they are not
 };
 

@@ -248,12 +248,12 @@ class Parser {
     if (name.find('/') != std::string::npos || name.find('\\') != std::string::npos ||
         !name.ends_with(".lsys"))
       throw_at(position, "got include \"{}\", expected the name of an .lsys file in the same folder", name);
-    const fs::path path = position.source->folder / name;
     if (!included_.insert(name).second)
       throw_at(position, "got include \"{}\" a second time, expected it once", name);
-    check_is_no_pipe(path);
-    auto source = std::make_shared<Source>(Source{path.string(), position.source->folder, read_file(path),
-                                                  true, position.source->may_have_plants});
+    const Source& from = *position.source;
+    const fs::path path = note_file(name, from);
+    auto source = std::make_shared<Source>(
+        Source{path.string(), from.folder, read_file(path), true, from.may_have_plants, from.files});
     parse(std::move(source), true);
   }
 

@@ -24,8 +24,7 @@ fs::path file_beside(const std::string& name, const Source& source) {
     throw_input_error("got file \"{}\", expected none in an L-system that is no file", name);
   if (name.empty() || name.find_first_of("/\\") != std::string::npos || name.starts_with('.'))
     throw_input_error("got file \"{}\", expected the name of a file in the folder of the L-system", name);
-  check_is_no_pipe(source.folder / name);
-  return source.folder / name;
+  return note_file(name, source);
 }
 
 void parse_volume_declaration(Cursor& cursor, const std::string& name, Grammar& grammar) {

@@ -23,10 +23,13 @@ std::string one_line(std::string text) {
   return text;
 }
 
-void check_is_no_pipe(const std::filesystem::path& path) {
+std::filesystem::path note_file(const std::string& name, const Source& source) {
+  std::filesystem::path path = source.folder / name;
   std::error_code none;
   if (std::filesystem::is_other(path, none))
     throw_input_error("{}: is no regular file, expected one", path.string());
+  source.files->push_back(path);
+  return path;
 }
 
 std::string found_at(std::string_view text, std::size_t offset) {

@@ -6,10 +6,14 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <espalier/core/error.h>
 
 namespace espalier::lsystem {
+
+/// The files that an L-system was read from, its own first; included ones and those of its plants add theirs.
+using ReadFiles = std::vector<std::filesystem::path>;
 
 struct Source {
   std::string label;             ///< what messages call the file
@@ -17,6 +21,7 @@ struct Source {
   std::string text;
   bool may_read_files = true;   ///< meshes and pictures in the folder
   bool may_have_plants = true;  ///< of other L-systems; those have none
+  std::shared_ptr<ReadFiles> files = std::make_shared<ReadFiles>();
 };
 
 /// A place in a file. Files are shared, because included ones outlive their reading.
@@ -37,9 +42,9 @@ template <typename... Args>
   throw InputError(one_line(describe(position) + ": " + fmt::format(format, std::forward<Args>(args)...)));
 }
 
-/// Throws InputError where the path is there but neither a file nor a folder, as a pipe, which would never
-/// end.
-void check_is_no_pipe(const std::filesystem::path& path);
+/// The path of a file beside the source's, which is noted as read. Throws InputError where there is something
+/// that is neither a file nor a folder, as a pipe, which would never end.
+std::filesystem::path note_file(const std::string& name, const Source& source);
 
 /// What a message calls the text at an offset: "'x'", "the end of the line" or "the end of the file".
 std::string found_at(std::string_view text, std::size_t offset);

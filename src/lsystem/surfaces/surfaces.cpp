@@ -35,8 +35,7 @@ std::string bundled_text(const std::string& file, const Position& position) {
 }
 
 std::string file_text(const std::string& file, const Position& position) {
-  const fs::path path = position.source->folder / file;
-  check_is_no_pipe(path);
+  const fs::path path = note_file(file, *position.source);
   std::error_code none;
   const std::uintmax_t bytes = fs::file_size(path, none);
   if (!none && bytes > kMostBytes)
