@@ -515,5 +515,23 @@ TEST(Preset, TheFaultOfAnExtendedFileIsNamedThere) {
               testing::StartsWith(base + ":3: key 'flare': got -1"));
 }
 
+TEST(Preset, NamesItsLSystemFromItsOwnFolderOnFirst) {
+  const PresetFolder folder;
+  const std::string file =
+      folder.write("twig.lsys", "param reach = 2 in 1 .. 3 \"of it\"\naxiom: F(reach)\n");
+  const std::string preset = folder.write("short.toml", "model = \"twig.lsys\"\nreach = 1.5\n");
+  EXPECT_TRUE(is_same_model(load_preset(preset).model, file));
+  EXPECT_EQ(load_preset(folder.write("fir.toml", "model = \"small_pine.lsys\"\n")).model, "small_pine.lsys");
+}
+
+TEST(Models, TwoPathsOfOneFileAreOneModel) {
+  const PresetFolder folder;
+  const std::string file = folder.write("twig.lsys", "axiom: F\n"),
+                    other = folder.write("log.lsys", "axiom: F\n");
+  EXPECT_TRUE(is_same_model(file, (folder.path / "." / "twig.lsys").string()));
+  EXPECT_FALSE(is_same_model(file, other));
+  EXPECT_FALSE(is_same_model("weber_penn", file));
+}
+
 }  // namespace
 }  // namespace espalier

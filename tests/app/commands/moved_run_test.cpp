@@ -145,6 +145,41 @@ TEST_F(MovedRun, HasNoFileKeyOrColumnThatItsPageLeavesOut) {
   for (std::string name; std::getline(names, name, ',');) expect_on_page(name);
 }
 
+/// A folder with an L-system of the user's that includes another file, and a preset of it.
+fs::path own_models(const std::string& name) {
+  const fs::path folder = fresh_folder(name) / "models";
+  fs::create_directory(folder);
+  std::ofstream(folder / "reeds.lsys") << "param angle = 20 in 5 .. 60 deg \"of the blades\"\n"
+                                          "include \"blades.lsys\"\nsteps: 6\naxiom: A\n";
+  std::ofstream(folder / "blades.lsys") << "productions:\n  A --> F(1,0.05)[+(angle)A][-(angle)A]\n";
+  std::ofstream(folder / "steep.toml") << "model = \"reeds.lsys\"\nangle = 12\n";
+  return folder;
+}
+
+TEST(MovedRunOfAnOwnLSystem, GoesOnRepeatsAndGrowsWithoutTheFilesItWasMadeOf) {
+  const fs::path models = own_models("own_lsystem"), folder = models.parent_path();
+  const auto begin = [&](const std::string& run, int evaluations) {
+    expect_it_works(
+        fmt::format("fit {0} --model '{1}/reeds.lsys' --start '{1}/steep.toml' --size 32 --quiet "
+                    "--evaluations {2} --branch-rounds 1 --out '{3}'",
+                    bundled_target("oc_palm.png"), models.string(), evaluations, (folder / run).string()));
+  };
+  begin("whole", 30);
+  begin("short", 15);
+  fs::remove_all(models);
+  fs::rename(folder / "short", folder / "moved");
+  expect_it_works(fmt::format("fit --quiet --evaluations 30 --resume '{}'", (folder / "moved").string()));
+  expect_it_works(fmt::format("fit --quiet --repeat '{}' --out '{}'", (folder / "whole").string(),
+                              (folder / "again").string()));
+  for (const char* run : {"moved", "again"})
+    for (const char* file :
+         {"best.toml", "best.png", "archive/1.toml", "model/blades.lsys", "presets/steep.toml"})
+      EXPECT_EQ(read_text_file(folder / run / file), read_text_file(folder / "whole" / file)) << run << file;
+  for (const char* tree : {"best.toml", "archive/1.toml"})
+    expect_it_works(
+        fmt::format("mask '{}' -o '{}'", (folder / "moved" / tree).string(), (folder / "mask.png").string()));
+}
+
 TEST(FitCommand, PrintsItsSummaryAsJson) {
   const fs::path run = fresh_folder("json") / "run";
   const ProgramRun done = run_espalier(small_fit_of(kMovedTargets / "oc_palm.png", run, 10) + " --json");

@@ -132,6 +132,31 @@ TEST(ExperimentCommand, AFinishedStudyTakesMoreSeedsTargetsAndMethods) {
   EXPECT_EQ(read_text_file(out / "experiment.toml"), read_text_file(large));
 }
 
+TEST(ExperimentCommand, AMovedStudyWhosePictureIsGoneEndsAsIfItHadNotBeen) {
+  const fs::path folder = fresh_folder("moved"), picture = folder / "tree.png", whole = folder / "whole";
+  fs::copy_file(ESPALIER_SOURCE_DIR "/targets/oc_palm.png", picture);
+  const fs::path study = grown_study("'" + picture.string() + "', {species = 'palm', seed = 3}", "'cma_es'",
+                                     "2", "exclude_truth = false\n");
+  ASSERT_EQ(run_espalier(run_arguments(study, whole)).exit_code, 0);
+  const std::string results = read_text_file(whole / "results.csv");
+  const fs::path moved = folder / "far" / "study", run = moved / "runs/tree-2";
+  fs::create_directory(folder / "far");
+  fs::rename(whole, moved);
+  fs::remove(picture);
+  fs::remove_all(run);
+  ASSERT_EQ(run_espalier(run_arguments(moved / "experiment.toml", moved)).exit_code, 0);
+  EXPECT_EQ(read_text_file(moved / "results.csv"), results);
+  EXPECT_FALSE(fs::exists(run / "picture.png")) << "one copy is enough";
+  const fs::path again = folder / "again";
+  ASSERT_EQ(
+      run_espalier("fit --quiet --repeat '" + run.string() + "' --out '" + again.string() + "'").exit_code,
+      0);
+  EXPECT_EQ(read_text_file(again / "best.toml"), read_text_file(run / "best.toml"));
+  EXPECT_TRUE(fs::exists(again / "picture.png")) << "it is a run of its own";
+  fs::copy_file(ESPALIER_SOURCE_DIR "/targets/fir.png", picture);
+  expect_error(run_arguments(study, moved), "tree.png: got another picture than ");
+}
+
 TEST(ExperimentCommand, AStudyKilledWhileItGrowsEndsAsIfItHadNotBeen) {
   const fs::path folder = fresh_folder("grow_kill"), out = folder / "out";
   ASSERT_EQ(run_espalier(run_arguments(grown_study("'oc_palm'", "'cma_es'", "3"), out)).exit_code, 0);

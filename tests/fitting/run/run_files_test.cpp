@@ -1,0 +1,103 @@
+// Which files of the user's a run keeps, by which names, and that what comes with the program is not among
+// them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include <espalier/fitting/run/run_files.h>
+#include <espalier/models/models.h>
+#include <espalier/models/preset.h>
+
+#include "support/temporary_folders.h"
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string write_lines(const fs::path& path, const std::string& text) {
+  fs::create_directories(path.parent_path());
+  std::ofstream(path) << text;
+  return path.string();
+}
+
+std::vector<std::string> names_of_files(const KeptFiles& kept) {
+  std::vector<std::string> names;
+  for (const RunFile& file : kept.files) names.push_back(file.name.string());
+  return names;
+}
+
+KeptFiles kept_of(const FitRecord& record) { return files_to_keep(record, model_by_name(record.model)); }
+
+TEST(RunFiles, WhatComesWithTheProgramIsOnlyNamed) {
+  FitRecord record;
+  record.start = "acer,apple", record.species = "palm";
+  KeptFiles kept = kept_of(record);
+  EXPECT_THAT(kept.files, ElementsAre());
+  EXPECT_EQ(kept.record.start, "acer,apple");
+  EXPECT_EQ(kept.record.species, "palm");
+  record = {.model = "obstacle.lsys"};  // it reads a mesh of the program's
+  record.start = "defaults";
+  kept = kept_of(record);
+  EXPECT_THAT(kept.files, ElementsAre());
+  EXPECT_EQ(kept.record.model, "obstacle.lsys");
+}
+
+TEST(RunFiles, PresetsOfOneNameHaveTwoCopiesAndEqualOnesOne) {
+  const fs::path folder = fresh_folder("run_files");
+  const std::string left = write_lines(folder / "left/oak.toml", "extends = \"black_oak\"\ng_scale = 8\n"),
+                    right = write_lines(folder / "right/oak.toml", "extends = \"black_oak\"\ng_scale = 9\n");
+  FitRecord record;
+  record.start = left + ",acer," + right, record.species = left;
+  const KeptFiles kept = kept_of(record);
+  EXPECT_THAT(names_of_files(kept), ElementsAre("presets/oak.toml", "presets/oak_2.toml"));
+  EXPECT_EQ(kept.record.start, "presets/oak.toml,acer,presets/oak_2.toml");
+  EXPECT_EQ(kept.record.species, "presets/oak.toml");
+}
+
+/// The user's L-system `name` in `folder`, of four files, two of which are those of another L-system that it
+/// grows.
+std::string write_bush(const fs::path& folder) {
+  write_lines(folder / "berry.lsys", "include \"colors.lsys\"\naxiom: F(0.1)\n");
+  write_lines(folder / "colors.lsys", "width: 0.1\n");
+  write_lines(folder / "leaf.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  return write_lines(folder / "bush.lsys",
+                     "param reach = 2 in 1 .. 3 \"of it\"\nplant berry = \"berry.lsys\"\n"
+                     "surface leaf = \"leaf.obj\"\naxiom: F(reach)\n");
+}
+
+TEST(RunFiles, AnLSystemIsKeptWithAllThatItWasReadFrom) {
+  const fs::path folder = fresh_folder("run_files");
+  FitRecord record{.model = write_bush(folder / "models")};
+  record.start = write_lines(folder / "models/low.toml", "model = \"bush.lsys\"\nreach = 1.25\n");
+  const KeptFiles kept = kept_of(record);
+  EXPECT_THAT(names_of_files(kept),
+              testing::UnorderedElementsAre("model/bush.lsys", "model/berry.lsys", "model/colors.lsys",
+                                            "model/leaf.obj", "presets/low.toml"));
+  EXPECT_EQ(kept.record.model, "model/bush.lsys");
+  keep_files(kept.files, folder / "run");
+  fs::remove_all(folder / "models");
+  const Preset low = load_preset((folder / "run/presets/low.toml").string());
+  EXPECT_TRUE(is_same_model(low.model, (folder / "run/model/bush.lsys").string()));
+  EXPECT_EQ(low.values[0], 1.25);
+}
+
+TEST(RunFiles, OfARunThatIsReadAgainAreTheSame) {
+  const fs::path folder = fresh_folder("run_files"), run = folder / "run";
+  FitRecord record{.model = write_bush(folder / "models"), .views = {{"tree.png", {}}}};
+  record.start = write_lines(folder / "models/low.toml", "model = \"bush.lsys\"\nreach = 1.25\n");
+  const KeptFiles kept = kept_of(record);
+  keep_files(kept.files, run);
+  write_lines(run / "run.toml", record_to_toml(kept.record, std::nullopt));
+  fs::remove_all(folder / "models");
+  const KeptFiles again = kept_of(read_record(run / "run.toml").record);
+  EXPECT_EQ(again.files, kept.files);
+  EXPECT_EQ(again.record.model, kept.record.model);
+  EXPECT_EQ(again.record.start, kept.record.start);
+}
+
+}  // namespace
+}  // namespace espalier
