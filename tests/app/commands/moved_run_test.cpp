@@ -160,7 +160,7 @@ TEST(MovedRunOfAnOwnLSystem, GoesOnRepeatsAndGrowsWithoutTheFilesItWasMadeOf) {
   const fs::path models = own_models("own_lsystem"), folder = models.parent_path();
   const auto begin = [&](const std::string& run, int evaluations) {
     expect_it_works(
-        fmt::format("fit {0} --model '{1}/reeds.lsys' --start '{1}/steep.toml' --size 32 --quiet "
+        fmt::format("fit {0} --model '{1}/../models/reeds.lsys' --start '{1}/steep.toml' --size 32 --quiet "
                     "--evaluations {2} --branch-rounds 1 --out '{3}'",
                     bundled_target("oc_palm.png"), models.string(), evaluations, (folder / run).string()));
   };

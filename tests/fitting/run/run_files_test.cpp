@@ -85,18 +85,28 @@ TEST(RunFiles, AnLSystemIsKeptWithAllThatItWasReadFrom) {
   EXPECT_EQ(low.values[0], 1.25);
 }
 
-TEST(RunFiles, OfARunThatIsReadAgainAreTheSame) {
-  const fs::path folder = fresh_folder("run_files"), run = folder / "run";
-  FitRecord record{.model = write_bush(folder / "models"), .views = {{"tree.png", {}}}};
-  record.start = write_lines(folder / "models/low.toml", "model = \"bush.lsys\"\nreach = 1.25\n");
+/// Keeps the files of a run of `record`, takes the folder of the user's away, and reads the run again.
+void expect_same_when_read_again(const FitRecord& record, const fs::path& of_the_user, const fs::path& run) {
   const KeptFiles kept = kept_of(record);
+  EXPECT_FALSE(kept.files.empty());
   keep_files(kept.files, run);
   write_lines(run / "run.toml", record_to_toml(kept.record, std::nullopt));
-  fs::remove_all(folder / "models");
+  fs::remove_all(of_the_user);
   const KeptFiles again = kept_of(read_record(run / "run.toml").record);
   EXPECT_EQ(again.files, kept.files);
   EXPECT_EQ(again.record.model, kept.record.model);
   EXPECT_EQ(again.record.start, kept.record.start);
+  EXPECT_EQ(again.record.species, kept.record.species);
+}
+
+TEST(RunFiles, OfARunThatIsReadAgainAreTheSame) {
+  const fs::path folder = fresh_folder("run_files"), models = folder / "models";
+  FitRecord bushes{.model = write_bush(models), .views = {{"tree.png", {}}}};
+  bushes.start = write_lines(models / "low.toml", "model = \"bush.lsys\"\nreach = 1.25\n");
+  expect_same_when_read_again(bushes, models, folder / "bushes");
+  FitRecord oaks{.views = {{"tree.png", {}}}};
+  oaks.species = write_lines(models / "oak.toml", "extends = \"black_oak\"\ng_scale = 8\n");
+  expect_same_when_read_again(oaks, models, folder / "oaks");
 }
 
 }  // namespace
