@@ -83,6 +83,7 @@ std::string run_summary(const RunState& state) {
     summary["failed_candidates"] = {{"count", state.failures.count}, {"first", state.failures.first}};
   if (state.record.height_m) summary["height_m"] = *state.record.height_m;
   for (const ViewRecord& view : state.record.views) summary["pictures"].push_back(view.picture.string());
+  for (const TargetView& view : state.task.views) summary["confidence"].push_back(view.confidence);
   if (!state.task.warnings.empty()) summary["warnings"] = state.task.warnings;
   if (state.archive) {
     for (const FreeParameter& parameter : state.archive->space().free)

@@ -31,6 +31,7 @@ struct TargetView {
   PictureReading reading;   ///< what the mask says of its tree
   Mask crown = {};          ///< where leaves are expected; empty: nowhere
   PlantLabels labels = {};  ///< what the picture's colours say
+  double confidence = 1;    ///< of how the picture was read, as TargetPicture's
 };
 
 /// A target mask whose tree, `tree_height_px` tall with its base at base_row_px, is `height_m` tall. Reads

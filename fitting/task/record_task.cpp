@@ -71,6 +71,7 @@ void read_views(FitRecord& record, FitTask& task) {
     TargetView& made = task.views.back();
     made.reading.kind = kind_with_labels(made.reading.kind, target.labels);
     made.labels = target.labels;
+    made.confidence = target.confidence;
     expect_leaves(record, task.views.front().reading.kind, made);
   }
   const std::string hash_text = fmt::format("{:016x}", hash);

@@ -67,6 +67,24 @@ TEST(BadPicture, ASoundOneGivesNoWarning) {
   EXPECT_EQ(sound.summary["trained_to_target"], true);
 }
 
+/// A crown whose left half is as dark as the ground is light, and whose right half is neither.
+fs::path half_told_picture() {
+  Picture picture(128, 128, {255, 255, 255});
+  for (int y = 10; y < 120; ++y)
+    for (int x = y < 70 ? 44 : 60; x < (y < 70 ? 84 : 68); ++x)
+      picture.at(x, y) = x < 64 ? Rgb{0, 0, 0} : Rgb{140, 140, 140};
+  const fs::path path = fresh_folder("half_told") / "tree.png";
+  write_png(path, picture);
+  return path;
+}
+
+TEST(BadPicture, HowSureItsReadingIsStandsInTheSummary) {
+  const Fitted sure = fitted("sure", record_of(picture_of("sure", {kCrown, kTrunk}))),
+               doubtful = fitted("doubtful", record_of(half_told_picture()));
+  EXPECT_EQ(sure.summary["confidence"], nlohmann::json({1.0}));
+  EXPECT_LT(doubtful.summary["confidence"][0], 1);
+}
+
 TEST(BadPicture, CutOffAtTheFrameItIsFittedWithAWarning) {
   const Fitted cut = fitted("cut", record_of(picture_of("cut", {{44, 0, 128, 70}, kTrunk})));
   ASSERT_EQ(cut.warnings.size(), 1u);
