@@ -6,6 +6,7 @@
 #include <exception>
 #include <mutex>
 #include <numeric>
+#include <system_error>
 #include <thread>
 
 #include <espalier/experiments/declaration/target_files.h>
@@ -16,6 +17,7 @@
 #include <espalier/experiments/runner/move_runs.h>
 #include <espalier/experiments/runner/picture_runs.h>
 #include <espalier/experiments/runner/run_experiment.h>
+#include <espalier/machine/processors.h>
 
 namespace espalier {
 
@@ -177,8 +179,7 @@ void compute_posteriors(const FitsDeclaration& fits, const fs::path& directory, 
 
 int job_count(const Plan& plan, const RunnerOptions& options) {
   if (plan.one_at_a_time) return 1;
-  const int processors = static_cast<int>(std::thread::hardware_concurrency());
-  const int jobs = options.jobs > 0 ? options.jobs : processors / plan.threads_per_run;
+  const int jobs = options.jobs > 0 ? options.jobs : processors() / plan.threads_per_run;
   return std::clamp(jobs, 1, static_cast<int>(std::max<std::size_t>(1, plan.runs.size())));
 }
 
@@ -203,10 +204,13 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
   write_tables(directory, outcome.plan, outcome.rows);  // of runs that were moved
   Runner runner(directory, options, outcome);
   const int jobs = job_count(outcome.plan, options);
-  std::vector<std::jthread> threads;
-  threads.reserve(static_cast<std::size_t>(jobs));
-  for (int i = 0; i < jobs; ++i) threads.emplace_back([&] { runner.work(); });
-  threads.clear();
+  std::vector<std::jthread> others;
+  try {
+    for (int i = 1; i < jobs; ++i) others.emplace_back([&] { runner.work(); });
+  } catch (const std::system_error&) {  // a limit on processes: those that there are do the work
+  }
+  runner.work();
+  others.clear();
   runner.check();
   write_tables(directory, outcome.plan, outcome.rows);
   if (experiment.fits && experiment.fits->posterior && !options.stop_requested())

@@ -9,6 +9,7 @@
 #include <espalier/fitting/starts/fit_plan.h>
 #include <espalier/fitting/task/growth_memory.h>
 #include <espalier/fitting/task/record_task.h>
+#include <espalier/machine/memory.h>
 #include <espalier/models/models.h>
 
 namespace espalier {

@@ -1,9 +1,8 @@
-#include <omp.h>
-
 #include <algorithm>
 
 #include <espalier/core/error.h>
 #include <espalier/fitting/run/fit_run.h>
+#include <espalier/machine/processors.h>
 
 namespace espalier {
 
@@ -37,7 +36,7 @@ std::optional<BranchRounds> reached_rounds(const FitRecord& record, const FitTas
 }
 
 int threads_of(const FitExecution& options) {
-  return options.threads > 0 ? options.threads : omp_get_num_procs();
+  return options.threads > 0 ? startable_threads(options.threads) : processors();
 }
 
 FitRun::FitRun(const FitRecord& record, const FitTask& task, const FitPlan& plan, const fs::path& directory,

@@ -1,8 +1,4 @@
-#include <unistd.h>
-
 #include <algorithm>
-#include <fstream>
-#include <limits>
 
 #include <espalier/core/field_error.h>
 #include <espalier/fitting/task/growth_memory.h>
@@ -21,15 +17,6 @@ double gigabytes(double bytes) { return bytes / 1e9; }
 
 double growth_memory_bytes(const GrowthBudget& budget, int threads) {
   return std::max(threads, 1) * (budget.max_stems * kStemBytes + budget.max_leaves * kLeafBytes);
-}
-
-double machine_memory_bytes() {
-  const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGESIZE);
-  double bytes = pages > 0 && page_bytes > 0 ? static_cast<double>(pages) * static_cast<double>(page_bytes)
-                                             : std::numeric_limits<double>::infinity();
-  double group_bytes = 0;  // the file says "max" where there is no limit
-  if (std::ifstream("/sys/fs/cgroup/memory.max") >> group_bytes) bytes = std::min(bytes, group_bytes);
-  return bytes;
 }
 
 void check_growth_memory(const GrowthBudget& budget, int threads, double available_bytes) {

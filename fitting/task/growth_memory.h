@@ -7,10 +7,6 @@ namespace espalier {
 /// An upper bound, in bytes, of plants that use all of `budget`, one on each thread (at least 1).
 double growth_memory_bytes(const GrowthBudget& budget, int threads);
 
-/// Of this machine, or of the group of processes that may use less of it (cgroups, version 2); infinite where
-/// neither is known.
-double machine_memory_bytes();
-
 /// Throws FieldError ("growth.max_stems", or max_leaves where these need more) where `budget` may need more
 /// than `available_bytes`.
 void check_growth_memory(const GrowthBudget& budget, int threads, double available_bytes);

@@ -177,12 +177,13 @@ int run_and_signal(const std::string& command, int delay_ms, int signal) {
   return signalled(child, signal);
 }
 
-int run_and_interrupt(const std::string& command, const std::filesystem::path& begun, int delay_ms) {
+int run_and_interrupt(const std::string& command, const std::filesystem::path& begun, int delay_ms,
+                      int signal) {
   constexpr int kPatience_ms = 60'000;
   const pid_t child = start_program(command);
   for (int waited = 0; waited < kPatience_ms && !std::filesystem::exists(begun); waited += 10) usleep(10'000);
   usleep(static_cast<useconds_t>(delay_ms) * 1000);
-  return signalled(child, SIGINT);
+  return signalled(child, signal);
 }
 
 void expect_one_clear_error(const ProgramRun& run) {

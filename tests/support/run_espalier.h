@@ -26,7 +26,8 @@ int run_and_signal(const std::string& command, int delay_ms, int signal);
 
 /// The same with an interrupt, `delay_ms` after the file `begun` is there: on a busy machine that takes its
 /// time.
-int run_and_interrupt(const std::string& command, const std::filesystem::path& begun, int delay_ms);
+int run_and_interrupt(const std::string& command, const std::filesystem::path& begun, int delay_ms,
+                      int signal = SIGINT);
 
 /// The contract for bad input: exit code 2, nothing on stdout, one line on stderr.
 void expect_one_clear_error(const ProgramRun& run);

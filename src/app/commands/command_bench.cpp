@@ -1,6 +1,5 @@
 // espalier bench: how fast evaluations are on this machine, and where their time goes.
 #include <fmt/ranges.h>
-#include <omp.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include <espalier/app/commands/commands.h>
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
+#include <espalier/machine/processors.h>
 
 namespace espalier {
 
@@ -42,7 +42,7 @@ void run_bench_command(const BenchOptions& options) {
   if (cases.empty())
     throw_input_error("--species: got '{}', expected one of: {}", options.only,
                       fmt::join(bench_species(), ", "));
-  const int threads = omp_get_num_procs();
+  const int threads = processors();
   fmt::print("{}", bench_table_head(threads));
   std::vector<BenchResult> results;
   for (const BenchCase& c : cases) {

@@ -1,5 +1,6 @@
 // The program: its subcommands, and the one place where errors become messages and exit codes.
 #include <fmt/core.h>
+#include <omp.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include <espalier/app/options/option_names.h>
 #include <espalier/app/version.h>
 #include <espalier/core/field_error.h>
+#include <espalier/machine/processors.h>
 
 namespace espalier {
 
@@ -63,6 +65,7 @@ int run_program(int argc, const char* const* argv) {
   add_commands(app);
   add_examples(app);
   const std::vector<std::string> words = with_names_of_today({argv + std::min(argc, 1), argv + argc});
+  omp_set_num_threads(std::min(omp_get_max_threads(), processors()));
   try {
     app.parse(reversed(words));
     return 0;

@@ -14,16 +14,30 @@ using Clock = std::chrono::steady_clock;
 
 volatile std::sig_atomic_t interrupted = 0;
 
-void on_interrupt(int signal) {
-  interrupted = 1;
-  std::signal(signal, SIG_DFL);
+void on_signal(int) { interrupted = 1; }
+
+/// Calls that wait go on: nothing is lost that a signal arrives in the middle of.
+void note(int signal, int flags = 0) {
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART | flags;
+  sigemptyset(&action.sa_mask);
+  sigaction(signal, &action, nullptr);
+}
+
+bool is_ignored(int signal) {
+  struct sigaction action = {};
+  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
 }  // namespace
 
 void watch_for_interrupt() {
   std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGINT, on_interrupt);
+  note(SIGINT, SA_RESETHAND);
+  for (const int signal : {SIGTERM, SIGUSR1, SIGXCPU})
+    note(signal);  // they may come again until a limit kills
+  if (!is_ignored(SIGHUP)) note(SIGHUP);
 }
 
 bool is_interrupted() { return interrupted != 0; }

@@ -1,4 +1,4 @@
-// What commands that work for long share: Ctrl-C that ends them in good order, and a line of progress.
+// What commands that work for long share: signals that end them in good order, and a line of progress.
 #pragma once
 #include <chrono>
 #include <optional>
@@ -6,8 +6,9 @@
 
 namespace espalier {
 
-/// From now on the first Ctrl-C is noted, and the second kills. Files that grow beyond a limit become errors
-/// to report instead of a death.
+/// From now on what asks a process to end is noted: Ctrl-C, the second of which kills; SIGTERM (docker stop,
+/// Slurm, kill); SIGHUP, unless it was ignored before (nohup); SIGUSR1 and SIGXCPU (batch systems, before
+/// their limit). Files that grow beyond a limit become errors to report instead of a death.
 void watch_for_interrupt();
 bool is_interrupted();
 

@@ -107,6 +107,29 @@ TEST(FitCommand, CtrlCWritesTheResultAndTheRunRepeatsByItsCount) {
   EXPECT_EQ(read_text_file(folder / "again" / "best.toml"), read_text_file(run / "best.toml"));
 }
 
+struct EndingSignal : testing::TestWithParam<int> {};
+
+TEST_P(EndingSignal, LeavesAFinishedDirectoryLikeCtrlC) {
+  const fs::path run = fresh_folder("signal") / "run";
+  const std::string endless = "fit " + kSmall + "--seconds 1000 --out '" + run.string() + "'";
+  const int status = run_and_interrupt(endless, run / "run.toml", 300, GetParam());
+  ASSERT_TRUE(WIFEXITED(status)) << "it was killed";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(nlohmann::json::parse(read_text_file(run / "summary.json"))["stopped_by"], "interrupted");
+  EXPECT_THAT(read_text_file(run / "run.toml"), HasSubstr("stopped_by = \"interrupted\""));
+}
+
+INSTANTIATE_TEST_SUITE_P(OfSystems, EndingSignal, testing::Values(SIGTERM, SIGHUP, SIGUSR1, SIGXCPU));
+
+TEST(FitCommand, BehindNohupGoesOnAfterAHangUp) {
+  const fs::path run = fresh_folder("nohup") / "run";
+  const ProgramRun done =
+      run_shell("trap '' HUP; '" ESPALIER_PROGRAM "' fit " + kSmall + "--seconds 1.5 --out '" + run.string() +
+                "' & sleep 0.7; kill -HUP $!; wait $!");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(nlohmann::json::parse(read_text_file(run / "summary.json"))["stopped_by"], "time");
+}
+
 TEST(FitCommand, RefusesBadOptionsInOneLine) {
   const std::string out = " --out " + (fresh_folder("bad") / "run").string();
   expect_error(kPalm + out + " --optimizer cma", "cma_es");
