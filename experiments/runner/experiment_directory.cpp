@@ -1,15 +1,10 @@
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
 #include <espalier/experiments/runner/csv.h>
 #include <espalier/experiments/runner/experiment_directory.h>
+#include <espalier/machine/directory_lock.h>
 
 namespace espalier {
 
@@ -20,17 +15,9 @@ namespace {
 constexpr const char* kDeclaration = "experiment.toml";
 constexpr const char* kFinished = "row.json";
 
-void make_directory(const fs::path& directory) {
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (error)
-    throw_input_error("{}: got '{}', expected a directory that can be made", directory.string(),
-                      error.message());
-}
-
 bool holds_files(const fs::path& directory) {
   for (const auto& entry : fs::directory_iterator(directory))
-    if (entry.path().filename() != "lock") return true;
+    if (entry.path().filename() != kLockName && !is_temporary_name(entry.path())) return true;
   return false;
 }
 
@@ -88,21 +75,6 @@ CsvTable times_table(const Plan& plan, const std::vector<RunRow>& rows) {
 }
 
 }  // namespace
-
-DirectoryLock::DirectoryLock(const fs::path& directory) {
-  make_directory(directory);
-  const fs::path path = directory / "lock";
-  file_ = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
-  if (file_ < 0)
-    throw_input_error("{}: got '{}', expected a file that can be written", path.string(),
-                      std::strerror(errno));
-  if (flock(file_, LOCK_EX | LOCK_NB) == 0) return;
-  close(file_);
-  throw_input_error("{}: got a directory that another process works in, expected to be alone",
-                    directory.string());
-}
-
-DirectoryLock::~DirectoryLock() { close(file_); }
 
 void check_experiment_directory(const fs::path& directory, const Experiment& experiment) {
   const fs::path path = directory / kDeclaration;

@@ -11,20 +11,6 @@
 
 namespace espalier {
 
-/// Holds the directory for this process as long as it lives; the system lets go of it when the process ends,
-/// however it ends.
-class DirectoryLock {
- public:
-  /// Throws InputError where another process holds it.
-  explicit DirectoryLock(const std::filesystem::path& directory);
-  ~DirectoryLock();
-  DirectoryLock(const DirectoryLock&) = delete;
-  DirectoryLock& operator=(const DirectoryLock&) = delete;
-
- private:
-  int file_ = -1;
-};
-
 /// Throws InputError where the directory holds other files, or runs that the experiment does not have as they
 /// are: it may have more of them.
 void check_experiment_directory(const std::filesystem::path& directory, const Experiment& experiment);

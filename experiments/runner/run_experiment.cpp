@@ -9,6 +9,7 @@
 #include <system_error>
 #include <thread>
 
+#include <espalier/core/files.h>
 #include <espalier/experiments/declaration/target_files.h>
 #include <espalier/experiments/posteriors/target_posteriors.h>
 #include <espalier/experiments/runner/fit_runs.h>
@@ -17,6 +18,7 @@
 #include <espalier/experiments/runner/move_runs.h>
 #include <espalier/experiments/runner/picture_runs.h>
 #include <espalier/experiments/runner/run_experiment.h>
+#include <espalier/machine/directory_lock.h>
 #include <espalier/machine/processors.h>
 
 namespace espalier {
@@ -194,6 +196,7 @@ Plan plan_of(const Experiment& experiment, const fs::path& directory) {
 ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& directory,
                                  const RunnerOptions& options) {
   check_experiment_directory(directory, experiment);
+  make_directory(directory);
   const DirectoryLock lock(directory);
   finish_moves(directory);
   check_experiment_directory(directory, experiment);  // another process may have been quicker

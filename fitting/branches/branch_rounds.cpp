@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include <espalier/core/error.h>
@@ -111,6 +112,34 @@ ParameterValues defaults_but_for(const ParameterTable& table, const std::vector<
   return values;
 }
 
+void check_count(long count, long least, const char* what, const std::string& source) {
+  constexpr long kMost = 1'000'000'000;
+  if (count < least || count > kMost)
+    throw_input_error("{}: got {} {}, expected {}..{}", source, count, what, least, kMost);
+}
+
+void check_copy(const Solution& copy, const ParameterTable& table, const std::string& source) {
+  const std::vector<std::size_t> rows = rows_of_all(table);
+  const std::size_t count = copy.values.size(), all = table.rows.size();
+  if (count != rows.size() && count != all)
+    throw_input_error("{}: got {} values of a copy, expected {} or {}", source, count, rows.size(), all);
+  if (!std::isfinite(copy.score))
+    throw_input_error("{}: got score {}, expected a number", source, copy.score);
+  const ParameterValues values = count == all ? copy.values : defaults_but_for(table, rows, copy.values);
+  for (std::size_t row = 0; row < all; ++row) check_value(table.rows[row], values[row], source);
+}
+
+/// A stranger's file, or a damaged one, may hold anything.
+void check_state(const BranchRounds& state, const ParameterTable& table, const std::string& source) {
+  check_count(state.rounds, 0, "rounds", source);
+  check_count(state.finish_from, -1, "as the round of the finish", source);
+  check_count(state.steps, 0, "steps", source);
+  check_count(state.search_evaluations, 1, "evaluations", source);
+  check_count(state.search_limit, 0, "as the limit of evaluations", source);
+  if (state.copies.empty()) throw_input_error("{}: got no copies, expected one or more", source);
+  for (const Solution& copy : state.copies) check_copy(copy, table, source);
+}
+
 }  // namespace
 
 BranchRounds stored(BranchRounds state, const ParameterTable& table) {
@@ -167,7 +196,7 @@ BranchRounds branch_rounds_from_json(const std::string& text, const ParameterTab
     if (json.contains("history"))
       for (const nlohmann::json& row : json.at("history"))
         state.history.push_back(row_from_json(row, source));
-    if (state.copies.empty()) throw_input_error("{}: got no copies, expected one or more", source);
+    check_state(state, table, source);
     return state;
   } catch (const nlohmann::json::exception& error) {
     throw_input_error("{}: got '{}', expected the state of a refinement", source, error.what());

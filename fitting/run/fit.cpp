@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <espalier/core/files.h>
 #include <espalier/fitting/record/species_components.h>
 #include <espalier/fitting/run/fit.h>
 #include <espalier/fitting/run/fit_run.h>
@@ -9,6 +10,7 @@
 #include <espalier/fitting/starts/fit_plan.h>
 #include <espalier/fitting/task/growth_memory.h>
 #include <espalier/fitting/task/record_task.h>
+#include <espalier/machine/directory_lock.h>
 #include <espalier/machine/memory.h>
 #include <espalier/models/models.h>
 
@@ -60,6 +62,15 @@ void check_searches(const FitRecord& record, const Optimizer& optimizer, const S
   if (species) check_optimizer(record, optimizer, SpaceObjective(*species, {}, {}, no_scorer));
 }
 
+/// Nobody else works in the directory now, as somebody may have until now.
+std::vector<std::string> enter(const fs::path& directory, const ParameterTable& table,
+                               const FitExecution& options) {
+  if (options.resume) return mend_run_directory(directory, table);
+  check_new_directory(directory);
+  remove_temporary_files(directory);
+  return {};
+}
+
 }  // namespace
 
 std::optional<SpeciesSpace> space_of(const FitRecord& record, const Model& model) {
@@ -90,6 +101,9 @@ FitResult fit(const FitRecord& given, const fs::path& directory, const FitExecut
   note_contents(record);
   const KeptFiles kept = files_to_keep(record, *task.model);
   record = kept.record;
+  make_directory(directory);
+  const DirectoryLock lock(directory);
+  for (const std::string& damage : enter(directory, table, options)) options.on_warning(damage);
   begin_run_directory(directory, {.record = record, .task = task}, kept.files);
   read_kept_pictures(record, directory);
   for (const std::string& warning : task.warnings) options.on_warning(warning);

@@ -88,6 +88,7 @@ void FitRun::refresh_directory() {
   state_.evaluations = static_cast<long>(scorer_.evaluations());
   state_.seconds = began;
   state_.failures = plant_scorer_.failures();
+  log_.sync();
   write_run_directory(directory_, state_);
   refreshed_at_ = seconds();
   refresh_cost_ = refreshed_at_ - began;

@@ -6,9 +6,11 @@
 #include <espalier/fitting/run/run_directory.h>
 #include <espalier/fitting/run/run_pictures.h>
 #include <espalier/fitting/run/run_summary.h>
+#include <espalier/fitting/search/evaluation_log.h>
 #include <espalier/image/pictures/picture.h>
 #include <espalier/image/reading/frame.h>
 #include <espalier/image/reading/room_to_grow.h>
+#include <espalier/machine/directory_lock.h>
 #include <espalier/models/preset.h>
 #include <espalier/render/embree/embree_renderer.h>
 
@@ -84,6 +86,12 @@ std::string archived_to_toml(const RunState& state, std::size_t index) {
   preset.grown_into = grown_into(state);
   preset.seed = state.task.plant_seeds.front();
   return preset_to_toml(preset, state.task.model->table());
+}
+
+bool holds_files(const fs::path& directory, std::error_code& error) {
+  for (const auto& entry : fs::directory_iterator(directory, error))
+    if (entry.path().filename() != kLockName && !is_temporary_name(entry.path())) return true;
+  return false;
 }
 
 /// The outlines that trained trees are grown into.
@@ -162,6 +170,33 @@ std::optional<BranchRounds> read_branch_rounds(const fs::path& directory, const 
   return branch_rounds_from_json(read_file(file), table, file.string());
 }
 
+std::vector<std::string> mend_run_directory(const fs::path& directory, const ParameterTable& table) {
+  remove_temporary_files(directory);
+  remove_temporary_files(directory / "archive");
+  std::vector<std::string> found;
+  const fs::path log_file = directory / "evaluations.bin", state_file = directory / kBranchesFile;
+  std::error_code error;
+  const LogContent log = fs::exists(log_file, error) ? read_evaluation_log(log_file) : LogContent{};
+  const std::size_t evaluations = log.evaluations.size();
+  if (log.is_damaged)
+    found.push_back(fmt::format("{}: evaluation {} is damaged: the run goes on from the {} before it",
+                                log_file.string(), evaluations + 1, evaluations));
+  std::string reason;
+  try {
+    const auto state = read_branch_rounds(directory, table);
+    if (state && state->search_evaluations > static_cast<long>(evaluations))
+      reason = fmt::format("{}: got the state after {} evaluations, of which the log holds {}",
+                           state_file.string(), state->search_evaluations, evaluations);
+  } catch (const InputError& damage) {
+    reason = damage.what();
+  }
+  if (!reason.empty()) {
+    found.push_back(reason + ": the refinement begins anew");
+    fs::remove(state_file, error);
+  }
+  return found;
+}
+
 void check_new_directory(const fs::path& directory) {
   std::error_code error;
   const fs::file_status status = fs::status(directory, error);
@@ -169,7 +204,7 @@ void check_new_directory(const fs::path& directory) {
   if (status.type() != fs::file_type::directory)
     throw_input_error("{}: got {}, expected a directory to make", directory.string(),
                       error ? error.message() : "a file");
-  if (fs::directory_iterator(directory, error) != fs::directory_iterator())
+  if (holds_files(directory, error))
     throw_input_error("{}: got a directory with files in it, expected a new one, or to resume the run in it",
                       directory.string());
   if (error)
@@ -181,17 +216,15 @@ void check_run_directory(const fs::path& directory) {
   std::error_code error;
   if (!fs::is_directory(directory, error))
     throw_input_error("{}: got no directory, expected that of a run", directory.string());
+  for (const auto& entry : fs::recursive_directory_iterator(directory, error))
+    if (entry.is_symlink(error))
+      throw_input_error("{}: got a link, expected a file of the run", entry.path().string());
   if (!fs::exists(directory / "run.toml", error))
     throw_input_error("{}: got a directory without run.toml, expected that of a run", directory.string());
 }
 
 void begin_run_directory(const fs::path& directory, const RunState& state,
                          const std::vector<RunFile>& files) {
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (error)
-    throw_input_error("{}: got '{}', expected a directory that can be made", directory.string(),
-                      error.message());
   keep_pictures(state.record, directory);
   keep_files(files, directory);
   write_file_atomically(directory / "run.toml", record_to_toml(state.record, std::nullopt));

@@ -59,14 +59,21 @@ Seed best_seed(const RunState& state);
 std::optional<BranchRounds> read_branch_rounds(const std::filesystem::path& directory,
                                                const ParameterTable& table);
 
-/// Throws InputError unless `directory` is missing or empty, and not a file.
+/// Throws InputError unless `directory` is missing or empty, and not a file. What a process that was killed
+/// in its first moments left does not count.
 void check_new_directory(const std::filesystem::path& directory);
 
-/// Throws InputError unless it holds a run that can go on.
+/// Throws InputError unless it holds a run that can go on. Nothing in it may be a link: files of the run are
+/// replaced, and a stranger's run must not replace others.
 void check_run_directory(const std::filesystem::path& directory);
 
-/// Makes the directory and writes the pictures, the files, run.toml and the target masks. Throws InputError
-/// where it cannot.
+/// Takes away what is not sound of a run that is to go on, while nobody else works in it: what killed
+/// processes left, and a state of the refinement that is damaged or that the log does not reach, without
+/// which the run makes it anew. Returns what was not sound, in words.
+std::vector<std::string> mend_run_directory(const std::filesystem::path& directory,
+                                            const ParameterTable& table);
+
+/// Writes the pictures, the files, run.toml and the target masks. Throws InputError where it cannot.
 void begin_run_directory(const std::filesystem::path& directory, const RunState& state,
                          const std::vector<RunFile>& files);
 

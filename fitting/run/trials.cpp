@@ -18,11 +18,14 @@ namespace {
 
 std::vector<LoggedEvaluation> logged_in(const fs::path& run) {
   check_run_directory(run);
-  std::vector<LoggedEvaluation> logged = read_evaluation_log(run / "evaluations.bin");
-  if (logged.empty())
-    throw_input_error("{}: got no evaluations, expected a run that has made some",
-                      (run / "evaluations.bin").string());
-  return logged;
+  const fs::path file = run / "evaluations.bin";
+  LogContent log = read_evaluation_log(file);
+  if (log.is_damaged)
+    throw_input_error("{}: evaluation {} is damaged, expected a sound log: the run mends it where it goes on",
+                      file.string(), log.evaluations.size() + 1);
+  if (log.evaluations.empty())
+    throw_input_error("{}: got no evaluations, expected a run that has made some", file.string());
+  return std::move(log.evaluations);
 }
 
 std::string head_of(const ParameterTable& table) {

@@ -2,22 +2,44 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <bit>
+#include <boost/crc.hpp>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 #include <string>
+#include <string_view>
 
 #include <espalier/core/error.h>
+#include <espalier/core/files.h>
 #include <espalier/fitting/search/evaluation_log.h>
 
 namespace espalier {
 
 namespace {
 
-constexpr char kMark[9] = "espfit01";
+constexpr std::string_view kMark = "espfit02", kMarkOf01 = "espfit01";
 constexpr std::size_t kMarkBytes = 8;
-static_assert(sizeof(LoggedEvaluation) == 16);
+
+/// As it stands in the file.
+struct Record {
+  LoggedEvaluation evaluation;
+  std::uint32_t number = 0;  ///< from 0
+  std::uint32_t check = 0;   ///< CRC-32 of what stands before it
+};
+static_assert(sizeof(LoggedEvaluation) == 16 && sizeof(Record) == 24);
+
+std::uint32_t check_of(const Record& record) {
+  boost::crc_32_type crc;
+  crc.process_bytes(&record, offsetof(Record, check));
+  return crc.checksum();
+}
+
+Record record_of(const LoggedEvaluation& evaluation, std::size_t number) {
+  Record record{evaluation, static_cast<std::uint32_t>(number)};
+  record.check = check_of(record);
+  return record;
+}
 
 /// Reads what is there; nothing from a device, which may never end.
 std::string read_all(int file) {
@@ -30,26 +52,70 @@ std::string read_all(int file) {
   return bytes;
 }
 
-/// The whole records of a log.
-std::vector<LoggedEvaluation> records_of(const std::string& bytes, const std::filesystem::path& path) {
-  if (std::memcmp(bytes.data(), kMark, std::min(bytes.size(), kMarkBytes)) != 0)
+template <typename Value>
+Value value_at(std::string_view bytes, std::size_t at) {
+  Value value;
+  std::memcpy(&value, bytes.data() + at, sizeof value);
+  return value;
+}
+
+LogContent content_of_01(std::string_view records) {
+  LogContent content{.is_of_version_01 = true};
+  for (std::size_t at = 0; at + sizeof(LoggedEvaluation) <= records.size(); at += sizeof(LoggedEvaluation))
+    content.evaluations.push_back(value_at<LoggedEvaluation>(records, at));
+  return content;
+}
+
+LogContent content_of(std::string_view bytes, const std::filesystem::path& path) {
+  const std::string_view mark = bytes.substr(0, kMarkBytes);
+  if (!kMark.starts_with(mark) && mark != kMarkOf01)
     throw_input_error("{}: got another kind of file, expected a log of evaluations", path.string());
-  const std::size_t count =
-      bytes.size() < kMarkBytes ? 0 : (bytes.size() - kMarkBytes) / sizeof(LoggedEvaluation);
-  std::vector<LoggedEvaluation> records(count);
-  if (count > 0) std::memcpy(records.data(), bytes.data() + kMarkBytes, count * sizeof(LoggedEvaluation));
+  if (mark.size() < kMarkBytes) return {};
+  const std::string_view records = bytes.substr(kMarkBytes);
+  if (mark == kMarkOf01) return content_of_01(records);
+  LogContent content;
+  for (std::size_t at = 0; at + sizeof(Record) <= records.size() && !content.is_damaged;
+       at += sizeof(Record)) {
+    const auto record = value_at<Record>(records, at);
+    content.is_damaged = record.check != check_of(record) || record.number != content.evaluations.size();
+    if (!content.is_damaged) content.evaluations.push_back(record.evaluation);
+  }
+  return content;
+}
+
+std::string bytes_of(std::span<const Record> records) {
+  return {reinterpret_cast<const char*>(records.data()), records.size_bytes()};
+}
+
+std::vector<Record> records_of(std::span<const LoggedEvaluation> evaluations, std::size_t first) {
+  std::vector<Record> records;
+  records.reserve(evaluations.size());
+  for (const LoggedEvaluation& evaluation : evaluations) records.push_back(record_of(evaluation, first++));
   return records;
+}
+
+/// A log of version 0.1 becomes one with checks.
+void write_as_of_today(const std::filesystem::path& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, none))) return;
+  const LogContent content = read_evaluation_log(path);
+  if (content.is_of_version_01)
+    write_file_atomically(path, std::string(kMark) + bytes_of(records_of(content.evaluations, 0)));
+}
+
+[[noreturn]] void throw_cannot_write(const std::filesystem::path& path) {
+  throw_input_error("{}: got '{}', expected a log that can be written", path.string(), std::strerror(errno));
 }
 
 }  // namespace
 
-std::vector<LoggedEvaluation> read_evaluation_log(const std::filesystem::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+LogContent read_evaluation_log(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0)
     throw_input_error("{}: got '{}', expected a log of evaluations", path.string(), std::strerror(errno));
   const std::string bytes = read_all(file);
   ::close(file);
-  return records_of(bytes, path);
+  return content_of(bytes, path);
 }
 
 std::uint32_t hash_values(const ParameterTable& table, const ParameterValues& values) {
@@ -64,10 +130,9 @@ std::uint32_t hash_values(const ParameterTable& table, const ParameterValues& va
 }
 
 EvaluationLog::EvaluationLog(const std::filesystem::path& path) : path_(path) {
-  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (file_ < 0)
-    throw_input_error("{}: got '{}', expected a log that can be written", path.string(),
-                      std::strerror(errno));
+  write_as_of_today(path);
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
+  if (file_ < 0) throw_cannot_write(path);
   try {
     read_logged();
   } catch (...) {
@@ -82,21 +147,27 @@ EvaluationLog::~EvaluationLog() {
 
 void EvaluationLog::read_logged() {
   const std::string bytes = read_all(file_);
-  logged_ = records_of(bytes, path_);
+  LogContent content = content_of(bytes, path_);
+  logged_ = std::move(content.evaluations);
+  count_ = logged_.size();
   if (bytes.size() < kMarkBytes) {  // new, or torn inside the mark
     ::lseek(file_, 0, SEEK_SET);
-    write_all(kMark, kMarkBytes);
+    write_all(kMark.data(), kMarkBytes);
   }
-  const auto end = static_cast<off_t>(kMarkBytes + logged_.size() * sizeof(LoggedEvaluation));
-  if (bytes.size() > static_cast<std::size_t>(end) && ::ftruncate(file_, end) != 0)
-    throw_input_error("{}: got '{}', expected a log that can be written", path_.string(),
-                      std::strerror(errno));
-  ::lseek(file_, end, SEEK_SET);
+  const std::size_t end = kMarkBytes + count_ * sizeof(Record);
+  if (bytes.size() > end && ::ftruncate(file_, static_cast<off_t>(end)) != 0) throw_cannot_write(path_);
+  ::lseek(file_, static_cast<off_t>(end), SEEK_SET);
 }
 
 void EvaluationLog::append(std::span<const LoggedEvaluation> evaluations) {
   ESPALIER_CHECK_EQ(file_ >= 0, true);
-  write_all(evaluations.data(), evaluations.size_bytes());
+  const std::vector<Record> records = records_of(evaluations, count_);
+  write_all(records.data(), records.size() * sizeof(Record));
+  count_ += records.size();
+}
+
+void EvaluationLog::sync() {
+  if (file_ >= 0) ::fdatasync(file_);  // where a file system cannot, there is nothing more to be done
 }
 
 void EvaluationLog::write_all(const void* bytes, std::size_t size) {

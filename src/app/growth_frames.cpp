@@ -7,6 +7,7 @@
 
 #include <espalier/app/growth_frames.h>
 #include <espalier/app/options/long_work.h>
+#include <espalier/app/options/messages.h>
 #include <espalier/core/error.h>
 #include <espalier/image/pictures/animation.h>
 #include <espalier/image/pictures/picture.h>
@@ -73,7 +74,7 @@ void write_growth_frames(lsystem::Derivation& derivation, const ParameterValues&
     const Picture picture = render_shaded(plant, camera, shading);
     if (is_interrupted()) {
       progress.end();
-      fmt::print(stderr, "espalier: interrupted at frame {} of {}\n", frame + 1, options.frames);
+      print_error(fmt::format("interrupted at frame {} of {}", frame + 1, options.frames));
       throw CLI::RuntimeError(130);
     }
     if (animation)

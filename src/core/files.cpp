@@ -1,11 +1,11 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <system_error>
 
 #include <espalier/core/error.h>
@@ -21,11 +21,40 @@ namespace fs = std::filesystem;
   throw_input_error("{}: cannot be written: {}", path.string(), std::strerror(error_number));
 }
 
+/// Some file systems cannot: there is nothing more to be done then.
+int sync(int descriptor) {
+  if (::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP) return 0;
+  return -1;
+}
+
+/// Brings the names in a folder to the disk; returns errno. A folder that cannot be read was written all the
+/// same.
+int sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return 0;
+  const int failed = sync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  return failed;
+}
+
+constexpr std::string_view kTemporaryBegin = ".espalier-", kTemporaryEnd = ".tmp";
+
+/// In the same folder as `path`, so that the rename stays on one file system, and short whatever that is
+/// called. By chance alone: process numbers are the same again in each container.
+fs::path temporary_path(const fs::path& path) {
+  thread_local std::random_device chance;
+  return path.parent_path() / fmt::format("{}{:08x}{:08x}{}", kTemporaryBegin, std::uint32_t{chance()},
+                                          std::uint32_t{chance()}, kTemporaryEnd);
+}
+
 /// A file that disappears again unless it was kept.
 class TemporaryFile {
  public:
-  TemporaryFile(fs::path path, const fs::path& for_path) : path_(std::move(path)) {
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  TemporaryFile(const fs::path& beside, const fs::path& for_path) {
+    do {
+      path_ = temporary_path(beside);
+      descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (descriptor_ < 0 && errno == EEXIST);
     if (descriptor_ < 0) throw_cannot_write(for_path, errno);
   }
   ~TemporaryFile() {
@@ -36,13 +65,15 @@ class TemporaryFile {
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   int descriptor() const { return descriptor_; }
-  /// Closes and renames; returns errno, 0 where all went well.
+  /// Brings the bytes to the disk, closes and renames; returns errno, 0 where all went well.
   int keep_as(const fs::path& target) {
+    const int synced = sync(descriptor_), failed = synced == 0 ? 0 : errno;
     const int closed = ::close(descriptor_);
     descriptor_ = -1;
+    if (failed != 0) return failed;
     if (closed != 0 || ::rename(path_.c_str(), target.c_str()) != 0) return errno;
     kept_ = true;
-    return 0;
+    return sync_folder(target.parent_path());
   }
 
  private:
@@ -84,12 +115,6 @@ void write_in_place(const fs::path& path, const WriteBytes& write) {
   ::close(descriptor);
 }
 
-/// Beside `path`, so that the rename stays on one file system; unlike any other thread's or process's.
-fs::path temporary_path(const fs::path& path) {
-  static std::atomic<unsigned> counter{0};
-  return path.parent_path() / fmt::format(".{}.{}-{}.tmp", path.filename().string(), ::getpid(), counter++);
-}
-
 }  // namespace
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
@@ -102,9 +127,29 @@ void write_file_atomically(const fs::path& path, const WriteBytes& write) {
   if (fs::is_directory(status)) throw_cannot_write(path, EISDIR);
   if (fs::exists(status) && !fs::is_regular_file(status)) return write_in_place(path, write);
   const fs::path target = fs::is_symlink(fs::symlink_status(path, none)) ? fs::weakly_canonical(path) : path;
-  TemporaryFile file(temporary_path(target), path);
+  TemporaryFile file(target, path);
   write(into(file.descriptor(), path));
   if (const int failed = file.keep_as(target)) throw_cannot_write(path, failed);
+}
+
+void make_directory(const fs::path& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error)
+    throw_input_error("{}: got '{}', expected a directory that can be made", directory.string(),
+                      error.message());
+}
+
+bool is_temporary_name(const fs::path& path) {
+  const std::string name = path.filename().string();  // of earlier versions: ".run.toml.1-0.tmp"
+  return name.starts_with('.') && name.find('-') != std::string::npos && name.ends_with(kTemporaryEnd);
+}
+
+void remove_temporary_files(const fs::path& directory) {
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(directory, none))
+    if (is_temporary_name(entry.path()) && entry.symlink_status(none).type() == fs::file_type::regular)
+      fs::remove(entry.path(), none);
 }
 
 std::string read_file(const fs::path& path) {

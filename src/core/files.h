@@ -1,5 +1,6 @@
 // Files are written whole or not at all: bytes go to a temporary file beside the target, which is then
-// renamed over it. A killed program or a full disk leaves the old file, or none.
+// renamed over it. A killed program, a full disk or a power cut leaves the old file, or none: the bytes are
+// on the disk before the rename, and the rename before the call returns.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -17,6 +18,15 @@ using TakeBytes = std::function<void(std::string_view bytes)>;
 /// the old file stays.
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(const TakeBytes& take)>& write);
+
+/// With all those above it. Throws InputError where it cannot be made.
+void make_directory(const std::filesystem::path& directory);
+
+/// Whether a program that was killed may have left this name beside what it wrote.
+bool is_temporary_name(const std::filesystem::path& path);
+
+/// Removes what killed programs left in the directory. Nobody may be writing there.
+void remove_temporary_files(const std::filesystem::path& directory);
 
 /// The whole file. Throws InputError with one line (path and reason) where it cannot be read.
 std::string read_file(const std::filesystem::path& path);

@@ -116,6 +116,32 @@ TEST_F(Files, ReadersSeeTheOldOrTheNewFileWhileThreadsWrite) {
   EXPECT_EQ(entries(), 1);
 }
 
+TEST_F(Files, WhatAKilledProgramLeftHindersNobodyAndGoes) {
+  const fs::path old = folder_ / ".a.1-0.tmp", left = folder_ / ".espalier-0123456789abcdef.tmp";
+  for (const fs::path& name : {old, left}) std::ofstream(name) << "half a fi";
+  std::ofstream(folder_ / "notes.tmp") << "of the user";
+  EXPECT_TRUE(is_temporary_name(old) && is_temporary_name(left));
+  EXPECT_FALSE(is_temporary_name(folder_ / "notes.tmp") || is_temporary_name(folder_ / ".hidden"));
+  write_file_atomically(folder_ / "a", "whole");
+  remove_temporary_files(folder_);
+  EXPECT_EQ(read_file(folder_ / "a"), "whole");
+  EXPECT_EQ(entries(), 2) << "a, notes.tmp";
+}
+
+TEST_F(Files, TheirNamesMayBeAsLongAsTheSystemAllows) {
+  const fs::path path = folder_ / std::string(255, 'n');
+  write_file_atomically(path, "bytes");
+  EXPECT_EQ(read_file(path), "bytes");
+}
+
+TEST_F(Files, DirectoriesAreMadeWithAllAboveThem) {
+  make_directory(folder_ / "a" / "b");
+  EXPECT_TRUE(fs::is_directory(folder_ / "a" / "b"));
+  make_directory(folder_ / "a" / "b");
+  write_file_atomically(folder_ / "file", "");
+  EXPECT_THROW(make_directory(folder_ / "file" / "b"), InputError);
+}
+
 TEST_F(Files, WhatCannotBeReadIsRefused) {
   EXPECT_THROW(read_file(folder_ / "missing"), InputError);
   EXPECT_THROW(read_file(folder_), InputError);

@@ -14,6 +14,7 @@
 #include <espalier/app/commands/commands.h>
 #include <espalier/app/options/json_output.h>
 #include <espalier/app/options/long_work.h>
+#include <espalier/app/options/messages.h>
 #include <espalier/app/version.h>
 #include <espalier/core/data_path.h>
 #include <espalier/core/error.h>
@@ -32,15 +33,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-fs::path make_directory(const fs::path& directory) {
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (error)
-    throw_input_error("{}: got '{}', expected a directory that can be made", directory.string(),
-                      error.message());
-  return directory;
-}
 
 struct RunArguments {
   std::string file, out;
@@ -94,8 +86,8 @@ nlohmann::ordered_json outcome_to_json(const ExperimentOutcome& outcome, const f
 void check_outcome(const ExperimentOutcome& outcome, const fs::path& directory) {
   const auto has_failed = [](const RunRow& row) { return row.status == "failed"; };
   if (outcome.rows.empty() || !std::all_of(outcome.rows.begin(), outcome.rows.end(), has_failed)) return;
-  fmt::print(stderr, "espalier: {}: all {} runs failed, the first with: {}\n", directory.string(),
-             outcome.rows.size(), outcome.rows.front().error);
+  print_error(fmt::format("{}: all {} runs failed, the first with: {}", directory.string(),
+                          outcome.rows.size(), outcome.rows.front().error));
   throw CLI::RuntimeError(1);
 }
 
@@ -158,8 +150,8 @@ void check_runs(const CheckArguments& arguments) {
     broken += !one.holds;
   }
   if (broken == 0) return;
-  fmt::print(stderr, "espalier: {}: {} of {} expectations do not hold\n", arguments.directory, broken,
-             checked.size());
+  print_error(
+      fmt::format("{}: {} of {} expectations do not hold", arguments.directory, broken, checked.size()));
   throw CLI::RuntimeError(1);
 }
 
@@ -183,7 +175,8 @@ void compare_two(const CompareArguments& arguments) {
     fmt::print("{}", page);
     return;
   }
-  const fs::path out = make_directory(arguments.out);
+  const fs::path out = arguments.out;
+  make_directory(out);
   write_file_atomically(out / "compare.md", page);
   write_file_atomically(out / "compare.csv", to_csv(comparison.table));
   fmt::print("{}\n", (out / "compare.md").string());

@@ -11,6 +11,7 @@
 #include <espalier/app/growth_frames.h>
 #include <espalier/app/help_format.h>
 #include <espalier/app/options/json_output.h>
+#include <espalier/app/options/messages.h>
 #include <espalier/app/options/plant_options.h>
 #include <espalier/app/options/view_options.h>
 #include <espalier/core/assignment.h>
@@ -97,10 +98,10 @@ void warn_of_ignored_leaves(const lsystem::Grammar& grammar, const lsystem::Symb
   for (std::size_t id = 0; id < alphabet.size() && !grammar.leafy_segments; ++id) {
     const lsystem::Symbol& symbol = alphabet[static_cast<lsystem::SymbolId>(id)];
     if (symbol.arity < 3 || (symbol.name != "F" && symbol.name != "G")) continue;
-    fmt::print(stderr,
-               "espalier: warning: {}: {} has {} parameters, of which length and width are drawn; write "
-               "'segments: leafy' where the third is a number of leaves, else 'segments: plain'\n",
-               grammar.name, symbol.name, symbol.arity);
+    print_warning(
+        fmt::format("{}: {} has {} parameters, of which length and width are drawn; write "
+                    "'segments: leafy' where the third is a number of leaves, else 'segments: plain'",
+                    grammar.name, symbol.name, symbol.arity));
     return;
   }
 }
@@ -109,8 +110,8 @@ void warn_of_ignored_leaves(const lsystem::Grammar& grammar, const lsystem::Symb
 void note_errors_of_functions(const lsystem::Grammar& grammar) {
   for (const lsystem::FunctionDeclaration& function : grammar.functions)
     if (!function.file.empty())
-      fmt::print(stderr, "espalier: {}: 7 numbers follow the function within {:.2g}\n", function.file,
-                 function.error);
+      print_error(
+          fmt::format("{}: 7 numbers follow the function within {:.2g}", function.file, function.error));
 }
 
 void run_lsystem(const LsystemOptions& options) {

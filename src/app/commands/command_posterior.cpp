@@ -10,6 +10,7 @@
 #include <espalier/app/commands/commands.h>
 #include <espalier/app/options/json_output.h>
 #include <espalier/app/options/long_work.h>
+#include <espalier/app/options/messages.h>
 #include <espalier/app/options/target_options.h>
 #include <espalier/app/version.h>
 #include <espalier/core/field_error.h>
@@ -46,7 +47,7 @@ fs::path directory_of(const PosteriorOptions& options) {
   return out;
 }
 
-void warn(const std::string& text) { fmt::print(stderr, "espalier: warning: {}\n", text); }
+void warn(const std::string& text) { print_warning(text); }
 
 Mask read_silhouette(const PosteriorOptions& options, const TargetOptions& reading) {
   const TargetPicture picture = read_mask(options.request.picture, reading);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <espalier/app/commands/commands.h>
+#include <espalier/app/options/messages.h>
 #include <espalier/app/options/plant_options.h>
 #include <espalier/app/options/view_options.h>
 #include <espalier/core/field_error.h>
@@ -64,9 +65,9 @@ void set_sun(const std::string& text, ShadedSettings& shading) {
 
 void warn_of_unseen_ground(const ShadedSettings& shading, const ViewOptions& view) {
   if (shading.ground && !sees_ground(view))
-    fmt::print(stderr,
-               "espalier: warning: --ground has no effect: seen from the side without perspective a lawn is "
-               "a line; give an elevation above 0 or --perspective\n");
+    print_warning(
+        "--ground has no effect: seen from the side without perspective a lawn is "
+        "a line; give an elevation above 0 or --perspective");
 }
 
 void write_picture(const RenderCommandOptions& options, const Plant& plant, const Camera& camera,

@@ -7,6 +7,7 @@
 
 #include <espalier/app/commands/commands.h>
 #include <espalier/app/commands/target_sheet.h>
+#include <espalier/app/options/messages.h>
 #include <espalier/app/options/target_options.h>
 #include <espalier/app/options/view_options.h>
 #include <espalier/fitting/picture/crown_reading.h>
@@ -54,9 +55,9 @@ void run_target(const TargetPaths& paths, const TargetOptions& options) {
   const double share = static_cast<double>(area_px(target.mask)) / options.size_px / options.size_px;
   fmt::print("{}: {}\n", paths.image, target.how);
   for (const std::string& fault : describe(target.faults, options.one_tree))
-    fmt::print(stderr, "espalier: warning: {}: {}\n", paths.image, fault);
+    print_warning(fmt::format("{}: {}", paths.image, fault));
   for (const std::string& warning : target.warnings)
-    fmt::print(stderr, "espalier: warning: {}: {}\n", paths.image, warning);
+    print_warning(fmt::format("{}: {}", paths.image, warning));
   for (const std::string& mark : target.left_out) fmt::print("{}: left out: {}\n", paths.image, mark);
   fmt::print("{}: confidence {:.2f}\n", paths.image, target.confidence);
   fmt::print("{}: {}×{} px, the tree is {:.1f} px tall and covers {:.1f} %\n", paths.output, options.size_px,

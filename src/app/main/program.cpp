@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <memory>
+#include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <espalier/app/commands/commands.h>
@@ -16,6 +19,7 @@
 #include <espalier/app/main/old_names.h>
 #include <espalier/app/main/program.h>
 #include <espalier/app/main/wrong_words.h>
+#include <espalier/app/options/messages.h>
 #include <espalier/app/options/option_names.h>
 #include <espalier/app/version.h>
 #include <espalier/core/field_error.h>
@@ -24,12 +28,6 @@
 namespace espalier {
 
 namespace {
-
-/// One line whatever the message holds, so that scripts can read it.
-void print_error(std::string message) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  fmt::print(stderr, "espalier: {}\n", message);
-}
 
 /// Commands, in the order of the help.
 void add_commands(CLI::App& app) {
@@ -55,17 +53,35 @@ std::vector<std::string> reversed(std::vector<std::string> words) {
   return words;
 }
 
-}  // namespace
+/// Help and the version are no errors; words that lead nowhere are.
+int print_parsing(const CLI::App& app, const std::vector<std::string>& words, const CLI::ParseError& error) {
+  if (ends_before_command(app, words)) {
+    fmt::print("{}", app.help());
+    return 0;
+  }
+  print_error(explain_wrong_words(app, words, error));
+  return 2;
+}
 
-int run_program(int argc, const char* const* argv) {
-  CLI::App app{"Espalier fits tree models to pictures.", "espalier"};
-  app.require_subcommand(1);
-  app.formatter(std::make_shared<HelpFormat>());
-  app.set_version_flag("--version", version_text, "Print the version, the commit and the libraries");
-  add_commands(app);
-  add_examples(app);
-  const std::vector<std::string> words = with_names_of_today({argv + std::min(argc, 1), argv + argc});
-  omp_set_num_threads(std::min(omp_get_max_threads(), processors()));
+/// What the input or the machine refuses exits 2, a failure of ours 1.
+int print_failure(const std::exception& error) {
+  if (const auto* field = dynamic_cast<const FieldError*>(&error))
+    print_error(fmt::format("{}: {}", option_of(field->field), field->complaint));
+  else if (dynamic_cast<const InputError*>(&error))
+    print_error(error.what());
+  else if (dynamic_cast<const std::bad_alloc*>(&error))
+    print_error("got too little memory, expected more of it or a smaller input");
+  else if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
+    print_error(fmt::format("{}: got '{}', expected what can be read and written", file->path1().string(),
+                            file->code().message()));
+  else {
+    print_error(fmt::format("internal error: {}", error.what()));
+    return 1;
+  }
+  return 2;
+}
+
+int run_words(CLI::App& app, const std::vector<std::string>& words) {
   try {
     app.parse(reversed(words));
     return 0;
@@ -74,22 +90,29 @@ int run_program(int argc, const char* const* argv) {
   } catch (const CLI::RuntimeError& ended) {
     return ended.get_exit_code();  // a command that has said why
   } catch (const CLI::ParseError& error) {
-    if (ends_before_command(app, words)) {
-      fmt::print("{}", app.help());
-      return 0;
-    }
-    print_error(explain_wrong_words(app, words, error));
-    return 2;
-  } catch (const FieldError& error) {
-    print_error(fmt::format("{}: {}", option_of(error.field), error.complaint));
-    return 2;
-  } catch (const InputError& error) {
-    print_error(error.what());
-    return 2;
+    return print_parsing(app, words, error);
+  } catch (const std::system_error& error) {
+    if (!flush_output()) return 1;  // fmt throws where a stream is full
+    return print_failure(error);
   } catch (const std::exception& error) {
-    print_error(fmt::format("internal error: {}", error.what()));
-    return 1;
+    return print_failure(error);
   }
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv) {
+  open_closed_streams();
+  CLI::App app{"Espalier fits tree models to pictures.", "espalier"};
+  app.require_subcommand(1);
+  app.formatter(std::make_shared<HelpFormat>());
+  app.set_version_flag("--version", version_text, "Print the version, the commit and the libraries");
+  add_commands(app);
+  add_examples(app);
+  omp_set_num_threads(std::min(omp_get_max_threads(), processors()));
+  const int code = run_words(app, with_names_of_today({argv + std::min(argc, 1), argv + argc}));
+  const bool is_printed = flush_output();
+  return code == 0 && !is_printed ? 1 : code;
 }
 
 }  // namespace espalier

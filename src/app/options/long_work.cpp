@@ -2,9 +2,9 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <cstdio>
 
 #include <espalier/app/options/long_work.h>
+#include <espalier/app/options/messages.h>
 
 namespace espalier {
 
@@ -52,12 +52,11 @@ bool ProgressLine::is_due() const {
 
 void ProgressLine::print(const std::string& text) {
   shown_at_ = Clock::now();
-  fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", text, terminal_ ? "" : "\n");
-  std::fflush(stderr);
+  print_to_stderr(fmt::format("{}{}{}", terminal_ ? "\r\033[K" : "", text, terminal_ ? "" : "\n"));
 }
 
 void ProgressLine::end() const {
-  if (shown_at_ && terminal_) fmt::print(stderr, "\r\033[K");
+  if (shown_at_ && terminal_) print_to_stderr("\r\033[K");
 }
 
 }  // namespace espalier

@@ -1,8 +1,10 @@
 // Refinement branch by branch: laws of a step, a round, and a whole fit that ends with it.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include <espalier/core/error.h>
 #include <espalier/fitting/branches/branch_offsets.h>
@@ -256,8 +258,10 @@ TEST(BranchRounds, FilesHoldNoRowsThatTheirTreesDoNotUse) {
 }
 
 std::string with_metrics(const std::string& metrics) {
-  return R"({"rounds":1,"steps":1,"search_evaluations":1,"search_limit":1,"lanes":[{"values":[],"plant_seed":1,
-             "score":0.5,"overrides":""}],"history":[{"steps":1,"seconds":1,"score":0.5,"metrics":)" +
+  const nlohmann::json values = SmallTask::table().defaults();
+  return R"({"rounds":1,"steps":1,"search_evaluations":1,"search_limit":1,"lanes":[{"values":)" +
+         values.dump() +
+         R"(,"plant_seed":1,"score":0.5,"overrides":""}],"history":[{"steps":1,"seconds":1,"score":0.5,"metrics":)" +
          metrics + "}]}";
 }
 
@@ -272,6 +276,38 @@ TEST(BranchRounds, MeasuresOfEarlierVersionsAreReadByTheirPlaces) {
   EXPECT_THROW(branch_rounds_from_json(with_metrics("[0.1]"), SmallTask::table(), "branches.json"),
                InputError);
   EXPECT_THROW(branch_rounds_from_json(with_metrics("0.1"), SmallTask::table(), "branches.json"), InputError);
+}
+
+std::string error_of_state(const nlohmann::json& state) {
+  try {
+    branch_rounds_from_json(state.dump(), SmallTask::table(), "branches.json");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(BranchRounds, AStrangersStateIsCheckedAgainstTheModel) {
+  const nlohmann::json sound = nlohmann::json::parse(with_metrics("[0.1,0.2,0.3,0.4,0.5,0.6,0.7]"));
+  ASSERT_EQ(error_of_state(sound), "none");
+  const auto spoiled = [&](auto spoil) {
+    nlohmann::json state = sound;
+    spoil(state);
+    return error_of_state(state);
+  };
+  using testing::HasSubstr;
+  using Json = nlohmann::json;
+  EXPECT_THAT(spoiled([](Json& state) { state["lanes"][0]["values"].erase(0); }),
+              HasSubstr("values of a copy"));
+  EXPECT_THAT(spoiled([](Json& state) { state["lanes"][0]["values"][0] = 1e5; }),
+              HasSubstr("got 100000, expected"));
+  EXPECT_THAT(spoiled([](Json& state) { state["lanes"][0]["score"] = nullptr; }), HasSubstr("got '"));
+  EXPECT_THAT(spoiled([](Json& state) { state["lanes"] = Json::array(); }), HasSubstr("no copies"));
+  EXPECT_THAT(spoiled([](Json& state) { state["rounds"] = 9e18; }), HasSubstr("rounds, expected 0.."));
+  EXPECT_THAT(spoiled([](Json& state) { state["finish_from"] = -2; }), HasSubstr("got -2"));
+  EXPECT_THAT(spoiled([](Json& state) { state["steps"] = -1; }), HasSubstr("steps"));
+  EXPECT_THAT(spoiled([](Json& state) { state["search_evaluations"] = 0; }), HasSubstr("evaluations"));
+  EXPECT_THAT(spoiled([](Json& state) { state["search_limit"] = -1; }), HasSubstr("limit"));
 }
 
 /// Two trees of trunks alone, so that rounds of other orders find nothing to refine; the second is worse.

@@ -65,9 +65,9 @@ TEST(Fit, LeavesEveryFileOfARun) {
   fit(small_record(40), run);
   for (const char* name :
        {"run.toml", "trace.csv", "best.toml", "target.png", "best.png", "overlay.png", "convergence.svg",
-        "convergence.png", "summary.json", "evaluations.bin", "archive", "tree.png", "picture.png"})
+        "convergence.png", "summary.json", "evaluations.bin", "archive", "tree.png", "picture.png", "lock"})
     EXPECT_TRUE(fs::exists(run / name)) << name;
-  EXPECT_EQ(std::distance(fs::directory_iterator(run), {}), 13) << "no temporary file is left";
+  EXPECT_EQ(std::distance(fs::directory_iterator(run), {}), 14) << "no temporary file is left";
 }
 
 TEST(Fit, SummarySaysWhatWasDone) {
@@ -118,7 +118,7 @@ TEST(Fit, ResumesFromAnyCutOfTheLogToTheUnbrokenRun) {
   const fs::path unbroken = new_run("unbroken");
   const FitRecord record = small_record(80);
   fit(record, unbroken);
-  for (const std::uintmax_t bytes : {0u, 5u, 8u, 31u, 8u + 16 * 2, 8u + 16 * 33 + 7, 8u + 16 * 80}) {
+  for (const std::uintmax_t bytes : {0u, 5u, 8u, 31u, 8u + 24 * 2, 8u + 24 * 33 + 7, 8u + 24 * 80}) {
     const fs::path broken = fresh_folder("broken");
     fs::copy(unbroken, broken);
     fs::resize_file(broken / "evaluations.bin", bytes);
@@ -127,7 +127,7 @@ TEST(Fit, ResumesFromAnyCutOfTheLogToTheUnbrokenRun) {
     options.resume = true;
     fit(read_record(broken / "run.toml").record, broken, options);
     expect_same_run(broken, unbroken);
-    EXPECT_EQ(fs::file_size(broken / "evaluations.bin"), 8u + 16 * 80);
+    EXPECT_EQ(fs::file_size(broken / "evaluations.bin"), 8u + 24 * 80);
   }
 }
 

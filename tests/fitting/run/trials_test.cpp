@@ -69,13 +69,12 @@ std::vector<std::string> cells_of_line(const std::string& line) {
   return cells;
 }
 
-/// Changes one byte of the hash of a logged candidate.
-void spoil_hash(const fs::path& log, std::streamoff evaluation) {
-  std::fstream file(log, std::ios::in | std::ios::out | std::ios::binary);
-  file.seekg(8 + 16 * (evaluation - 1) + 12);
-  const int byte = file.get();
-  file.seekp(8 + 16 * (evaluation - 1) + 12);
-  file.put(static_cast<char>(byte ^ 1));
+/// The log of a search that asked for another candidate there.
+void change_hash(const fs::path& log, std::size_t evaluation) {
+  std::vector<LoggedEvaluation> logged = read_evaluation_log(log).evaluations;
+  logged.at(evaluation - 1).candidate_hash ^= 1;
+  fs::remove(log);
+  EvaluationLog(log).append(logged);
 }
 
 TEST(Trials, ArePointsThatScoreWhatWasLogged) {
@@ -84,7 +83,7 @@ TEST(Trials, ArePointsThatScoreWhatWasLogged) {
   const FitResult result = fit(record, run);
   const std::vector<KeptTrial> trials = trials_of(run);
   ASSERT_EQ(trials.size(), static_cast<std::size_t>(result.evaluations));
-  const std::vector<LoggedEvaluation> logged = read_evaluation_log(run / "evaluations.bin");
+  const std::vector<LoggedEvaluation> logged = read_evaluation_log(run / "evaluations.bin").evaluations;
   std::vector<ParameterValues> points;
   for (const KeptTrial& trial : trials) points.push_back(trial.values);
   FitRecord again = record;
@@ -178,11 +177,25 @@ TEST(Trials, AreOfTheSearchAloneWhereBranchesWereRefined) {
 TEST(Trials, OfAnotherSearchThanTheLoggedOneAreRefused) {
   const fs::path run = fresh_folder("trials_other") / "run";
   fit(record_with_trials(60), run);
-  spoil_hash(run / "evaluations.bin", 50);
+  change_hash(run / "evaluations.bin", 50);
   EXPECT_THAT(error_of_trials(run), HasSubstr("evaluation 50 differs from the one in the log"));
   std::ofstream(run / "trials.csv") << "kept";
   EXPECT_THROW(write_trials(run, run / "trials.csv"), InputError);
   EXPECT_EQ(read_text_file(run / "trials.csv"), "kept");
+}
+
+TEST(Trials, OfADamagedLogAreRefusedUntilTheRunWentOn) {
+  const fs::path run = fresh_folder("trials_damaged") / "run";
+  fit(record_with_trials(30), run);
+  const std::size_t sound = trials_of(run).size();
+  std::fstream file(run / "evaluations.bin", std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(8 + 24 * 11) << "zero";
+  file.close();
+  EXPECT_THAT(error_of_trials(run), HasSubstr("evaluation 12 is damaged"));
+  FitExecution again;
+  again.resume = true;
+  fit(read_record(run / "run.toml").record, run, again);
+  EXPECT_EQ(trials_of(run).size(), sound);
 }
 
 TEST(Trials, WhatIsNoRunIsRefused) {

@@ -76,9 +76,62 @@ RC_GTEST_PROP(EvaluationLog, ARunCutAtAnyByteResumesToTheUnbrokenRun, ()) {
   RC_ASSERT(resumed.scores == unbroken.scores);
   RC_ASSERT(resumed.best.values == unbroken.best.values &&
             resumed.best.evaluation == unbroken.best.evaluation);
-  RC_ASSERT(resumed.computed == total - (kept < 8 ? 0 : static_cast<long>((kept - 8) / 16)));
+  RC_ASSERT(resumed.computed == total - (kept < 8 ? 0 : static_cast<long>((kept - 8) / 24)));
   RC_ASSERT(read_text_file(folder / "evaluations.bin") == bytes);
   fs::remove_all(folder);
+}
+
+RC_GTEST_PROP(EvaluationLog, ARunWithAnyBitFlippedGoesOnFromBeforeItToTheUnbrokenRun, ()) {
+  const fs::path folder = fresh_folder("log"), file = folder / "evaluations.bin";
+  const LoggedRun unbroken = run_logged(folder, 20, 6);
+  const std::string bytes = read_text_file(file);
+  const auto bit =
+      *rc::gen::inRange<std::size_t>(8 * 8, bytes.size() * 8);  // one in the mark is another kind of file
+  std::string flipped = bytes;
+  flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << bit % 8));
+  std::ofstream(file, std::ios::binary) << flipped;
+  const std::size_t before = (bit / 8 - 8) / 24;
+  const LogContent content = read_evaluation_log(file);
+  RC_ASSERT(content.is_damaged);
+  RC_ASSERT(content.evaluations.size() == before);
+  const LoggedRun resumed = run_logged(folder, 20, 6);
+  RC_ASSERT(resumed.scores == unbroken.scores);
+  RC_ASSERT(resumed.computed == static_cast<long>(20 - before));
+  RC_ASSERT(read_text_file(file) == bytes);
+  fs::remove_all(folder);
+}
+
+TEST(EvaluationLog, RecordsInAnotherOrderAreDamaged) {
+  const fs::path folder = fresh_folder("order"), file = folder / "evaluations.bin";
+  run_logged(folder, 4, 2);
+  const std::string bytes = read_text_file(file);
+  std::ofstream(file, std::ios::binary) << bytes.substr(0, 8) << bytes.substr(32, 24) << bytes.substr(8, 24);
+  EXPECT_TRUE(read_evaluation_log(file).is_damaged);
+  EXPECT_TRUE(read_evaluation_log(file).evaluations.empty());
+}
+
+TEST(EvaluationLog, OfVersion01IsReadAndBecomesOneOfToday) {
+  const fs::path folder = fresh_folder("old_log"), file = folder / "evaluations.bin";
+  const LoggedRun unbroken = run_logged(folder, 9, 3);
+  const std::string bytes = read_text_file(file);
+  std::ofstream old(file, std::ios::binary | std::ios::trunc);
+  old << "espfit01";
+  for (std::size_t record = 0; record < 7; ++record) old << bytes.substr(8 + record * 24, 16);
+  old << "torn";
+  old.close();
+  EXPECT_EQ(read_evaluation_log(file).evaluations.size(), 7u);
+  const LoggedRun resumed = run_logged(folder, 9, 3);
+  EXPECT_EQ(resumed.scores, unbroken.scores);
+  EXPECT_EQ(resumed.computed, 2);
+  EXPECT_EQ(read_text_file(file), bytes);
+}
+
+TEST(EvaluationLog, IsNoLink) {
+  const fs::path folder = fresh_folder("link");
+  std::ofstream(folder / "precious") << "espfit02";
+  fs::create_symlink("precious", folder / "evaluations.bin");
+  EXPECT_THAT(error_of_log(folder / "evaluations.bin"), HasSubstr("expected a log that can be written"));
+  EXPECT_EQ(read_text_file(folder / "precious"), "espfit02");
 }
 
 TEST(LoggedScorer, StopsEvaluatingAtTheLimitInsideABatch) {
@@ -116,11 +169,7 @@ TEST(EvaluationLog, TheHashOfACandidateIsThatOfItsValuesInUse) {
   EXPECT_NE(hash_values(table, {3.0, 0.25, 1, 8}), hash_values(table, {3.0, 0.25, 1, 7}));
 }
 
-TEST(EvaluationLog, ReportsAFullDisk) {
-  const fs::path folder = fresh_folder("full");
-  fs::create_symlink("/dev/full", folder / "evaluations.bin");
-  EXPECT_THAT(error_of_log(folder / "evaluations.bin"), HasSubstr("No space left"));
-}
+TEST(EvaluationLog, ReportsAFullDisk) { EXPECT_THAT(error_of_log("/dev/full"), HasSubstr("No space left")); }
 
 TEST(EvaluationLog, RefusesAnotherKindOfFile) {
   const fs::path path = fresh_folder("kind") / "evaluations.bin";
