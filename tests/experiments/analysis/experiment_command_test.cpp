@@ -221,9 +221,11 @@ TEST(ExperimentCommand, LSystemsAndSeveralViewsAreFittedAndReported) {
   EXPECT_EQ(results.text(0, "truth_iou"), results.text(1, "truth_iou")) << "the tree's, whatever is fitted";
   EXPECT_EQ(results.text(0, "sibling_side_iou"), results.text(1, "sibling_side_iou"));
   EXPECT_TRUE(fs::exists(out / "targets" / "small_pine+2.png"));
-  const std::string record = read_text_file(out / "runs" / results.text(1, "run") / "run.toml");
+  const fs::path own = out / "runs" / results.text(1, "run");
+  const std::string record = read_text_file(own / "run.toml");
   EXPECT_THAT(record, HasSubstr("small_pine+2.png"));
-  EXPECT_THAT(record, HasSubstr((study.parent_path() / "own.lsys").string()));
+  EXPECT_THAT(record, HasSubstr("model = \"model/own.lsys\""));
+  EXPECT_EQ(read_text_file(own / "model/own.lsys"), read_text_file(study.parent_path() / "own.lsys"));
   const ProgramRun report = run_espalier("experiment report '" + out.string() + "'");
   EXPECT_EQ(report.exit_code, 0) << report.err;
 }
