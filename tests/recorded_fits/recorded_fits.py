@@ -44,8 +44,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 TARGETS = HERE.parents[1] / "targets"  # where fits run: pictures go by their names
 DIGESTS = ["fitted", "drawn"]
 VARYING_KEYS = {"seconds", "evaluations_per_second", "embree_disagreement_pixels"}
-LATER_KEYS = {"plant", "labels", "resembles"}  # of summary.json, in no run when these were recorded; nor was tree.png, nor a preset's seed
-LATER_FILES = {"tree.png"}
+LATER_KEYS = {"plant", "labels", "resembles", "confidence"}  # of summary.json, in no run when these were recorded; nor was tree.png, nor a preset's seed
+LATER_FILES = {"tree.png", "lock"}
 LATER_STEM = "picture"  # copies of what was fitted: picture.png, picture_2.jpg
 HEX_DIGITS = 16
 
@@ -122,9 +122,11 @@ def table_content(path):
 
 
 def evaluations_content(path):
-    """Value and hash of every candidate; the four bytes between them are seconds."""
-    records = path.read_bytes()[8:]
-    return b"".join(value + candidate for value, candidate in struct.iter_unpack("<8s4x4s", records))
+    """Value and hash of every candidate; the four bytes between them are seconds. Since format 2 a number and a check
+    follow."""
+    log = path.read_bytes()
+    record = "<8s4x4s" if log[:8] == b"espfit01" else "<8s4x4s8x"
+    return b"".join(value + candidate for value, candidate in struct.iter_unpack(record, log[8:]))
 
 
 def png_content(path):
