@@ -86,7 +86,8 @@ std::string one_line(std::string_view text, std::size_t longest) {
   if (text.size() > 4 * longest)  // what is cut away need not be read
     return one_line(std::string(text.substr(0, longest)) + std::string(text.substr(text.size() - longest)),
                     longest);
-  const std::string line = readable(text), mark = " … ";
+  std::string line = readable(text);
+  const std::string mark = " … ";
   if (line.size() <= longest) return line;
   const std::size_t begin = character_at(line, longest - kEnd - mark.size());
   return line.substr(0, begin) + mark + line.substr(character_at(line, line.size() - kEnd));
