@@ -88,9 +88,19 @@ std::string archived_to_toml(const RunState& state, std::size_t index) {
   return preset_to_toml(preset, state.task.model->table());
 }
 
+/// Whether a run writes it before its record.
+bool is_of_a_beginning(const fs::path& name) {
+  return name == "model" || name == "presets" || name.stem() == "picture" ||
+         name.string().starts_with("picture_");
+}
+
+/// Of other things than a run that was killed before its record was there, which has the lock first of all.
 bool holds_files(const fs::path& directory, std::error_code& error) {
-  for (const auto& entry : fs::directory_iterator(directory, error))
-    if (entry.path().filename() != kLockName && !is_temporary_name(entry.path())) return true;
+  const bool has_begun = fs::exists(directory / kLockName, error);
+  for (const auto& entry : fs::directory_iterator(directory, error)) {
+    const fs::path name = entry.path().filename();
+    if (name != kLockName && !is_temporary_name(name) && !(has_begun && is_of_a_beginning(name))) return true;
+  }
   return false;
 }
 

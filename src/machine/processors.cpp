@@ -1,4 +1,5 @@
-#include <omp.h>
+#include <sched.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -58,7 +59,7 @@ std::string text_of(const fs::path& file) {
 }
 
 int determined_processors() {
-  int count = omp_get_num_procs();  // follows taskset
+  int count = runnable_processors();
   count = std::min(count, quota_of_group("/sys/fs/cgroup", text_of("/proc/self/cgroup")));
   count = std::min(count, limit_from(std::getenv("SLURM_CPUS_PER_TASK")));
   return startable_threads(std::max(count, 1));
@@ -100,6 +101,12 @@ int startable_threads(int wanted) {
   }
   enough.set_value();
   return static_cast<int>(threads.size()) + 1;
+}
+
+int runnable_processors() {
+  cpu_set_t mask;
+  if (sched_getaffinity(0, sizeof mask, &mask) == 0) return std::max(1, CPU_COUNT(&mask));
+  return std::max(1, static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)));  // more than the mask has bits
 }
 
 int processors() {

@@ -10,6 +10,9 @@ namespace espalier {
 /// once.
 int processors();
 
+/// Those that it may run on (taskset).
+int runnable_processors();
+
 /// How many processors' time the quotas of a group and of all above it leave, rounded down, at least 1; a
 /// large number where there is none. `root`: /sys/fs/cgroup; `membership`: the text of /proc/self/cgroup.
 int quota_of_group(const std::filesystem::path& root, const std::string& membership);

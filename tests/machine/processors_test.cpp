@@ -73,11 +73,12 @@ int exit_code_of_fork(Body body) {
 
 TEST(Processors, AreThoseThatTheProcessMayRunOn) {
   EXPECT_GE(processors(), 1);
+  EXPECT_LE(processors(), runnable_processors());
   EXPECT_EQ(exit_code_of_fork([] {
               cpu_set_t one;
               CPU_ZERO(&one);
               CPU_SET(0, &one);
-              return sched_setaffinity(0, sizeof one, &one) == 0 ? startable_threads(1) : 99;
+              return sched_setaffinity(0, sizeof one, &one) == 0 ? runnable_processors() : 99;
             }),
             1);
 }

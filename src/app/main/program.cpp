@@ -109,7 +109,8 @@ int run_program(int argc, const char* const* argv) {
   app.set_version_flag("--version", version_text, "Print the version, the commit and the libraries");
   add_commands(app);
   add_examples(app);
-  omp_set_num_threads(std::min(omp_get_max_threads(), processors()));
+  if (processors() < runnable_processors())
+    omp_set_num_threads(std::min(omp_get_max_threads(), processors()));
   const int code = run_words(app, with_names_of_today({argv + std::min(argc, 1), argv + argc}));
   const bool is_printed = flush_output();
   return code == 0 && !is_printed ? 1 : code;

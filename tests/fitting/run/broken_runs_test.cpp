@@ -103,8 +103,18 @@ TEST_F(BrokenRun, ThatWasKilledBeforeItsRecordWasThereIsANewOne) {
   fs::create_directory(fresh);
   std::ofstream(fresh / ".espalier-0011223344556677.tmp") << "half";
   { const DirectoryLock lock(fresh); }
+  std::ofstream(fresh / "picture.png") << "another one";
+  fs::create_directory(fresh / "model");
   fit(refined_record(), fresh);
   EXPECT_TRUE(read_text_file(fresh / "best.toml") == read_text_file(whole / "best.toml"));
+}
+
+TEST_F(BrokenRun, IsNoDirectoryOfTheUsers) {
+  const fs::path own = fresh_folder("own_directory");
+  std::ofstream(own / "picture.png") << "of the user";
+  EXPECT_THROW(fit(refined_record(), own), InputError);
+  EXPECT_EQ(read_text_file(own / "picture.png"), "of the user");
+  EXPECT_FALSE(fs::exists(own / kLockName));
 }
 
 TEST_F(BrokenRun, OfAStrangerReplacesNoFileElsewhere) {
