@@ -47,7 +47,8 @@ class Keeper {
 
   void keep_model(const Model& model) {
     for (const fs::path& file : model.files()) add(kModelFolder / file.filename(), read_file(file));
-    if (!kept_.files.empty()) kept_.record.model = kept_.files.front().name.string();
+    is_model_kept_ = !kept_.files.empty();
+    if (is_model_kept_) kept_.record.model = kept_.files.front().name.string();
   }
 
   /// Two presets may have one file name.
@@ -66,7 +67,7 @@ class Keeper {
     Preset preset = load_preset(name);
     const ParameterTable& table = model_by_name(preset.model).table();
     preset.grown_into.clear();  // a start has values and overrides alone
-    if (preset.model != FitRecord{}.model) preset.model = (".." / fs::path(kept_.record.model)).string();
+    if (is_model_kept_) preset.model = (".." / fs::path(kept_.record.model)).string();
     std::string text = preset_to_toml(preset, table);
     const fs::path file = free_name(fs::path(name).stem(), text);
     add(file, std::move(text));
@@ -74,6 +75,7 @@ class Keeper {
   }
 
   KeptFiles kept_;
+  bool is_model_kept_ = false;
 };
 
 }  // namespace

@@ -74,7 +74,7 @@ void write_growth_frames(lsystem::Derivation& derivation, const ParameterValues&
     const Picture picture = render_shaded(plant, camera, shading);
     if (is_interrupted()) {
       progress.end();
-      print_error(fmt::format("interrupted at frame {} of {}", frame + 1, options.frames));
+      print_message(fmt::format("interrupted at frame {} of {}", frame + 1, options.frames));
       throw CLI::RuntimeError(130);
     }
     if (animation)

@@ -5,13 +5,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <exception>
 #include <fstream>
 #include <future>
 #include <iterator>
 #include <limits>
 #include <sstream>
 #include <string_view>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -97,7 +97,7 @@ int startable_threads(int wanted) {
   std::vector<std::jthread> threads;
   try {
     while (static_cast<int>(threads.size()) + 1 < wanted) threads.emplace_back([wait] { wait.wait(); });
-  } catch (const std::system_error&) {  // a limit on processes: what there is must do
+  } catch (const std::exception&) {  // a limit on processes or memory: what there is must do
   }
   enough.set_value();
   return static_cast<int>(threads.size()) + 1;

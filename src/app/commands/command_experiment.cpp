@@ -86,8 +86,8 @@ nlohmann::ordered_json outcome_to_json(const ExperimentOutcome& outcome, const f
 void check_outcome(const ExperimentOutcome& outcome, const fs::path& directory) {
   const auto has_failed = [](const RunRow& row) { return row.status == "failed"; };
   if (outcome.rows.empty() || !std::all_of(outcome.rows.begin(), outcome.rows.end(), has_failed)) return;
-  print_error(fmt::format("{}: all {} runs failed, the first with: {}", directory.string(),
-                          outcome.rows.size(), outcome.rows.front().error));
+  print_message(fmt::format("{}: all {} runs failed, the first with: {}", directory.string(),
+                            outcome.rows.size(), outcome.rows.front().error));
   throw CLI::RuntimeError(1);
 }
 
@@ -150,7 +150,7 @@ void check_runs(const CheckArguments& arguments) {
     broken += !one.holds;
   }
   if (broken == 0) return;
-  print_error(
+  print_message(
       fmt::format("{}: {} of {} expectations do not hold", arguments.directory, broken, checked.size()));
   throw CLI::RuntimeError(1);
 }

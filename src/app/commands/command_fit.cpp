@@ -149,8 +149,8 @@ void print_result(const FitResult& result, const FitRecord& record, const fs::pa
                std::max(kFullSizePx, record.target.size_px), (*full)["iou"], (*full)["tolerant_iou"],
                (*full)["outline_iou"], (*full)["gap_iou"]);
   if (result.failures.count > 0)
-    print_error(fmt::format("{} candidates failed and counted as the worst; the first: {}",
-                            result.failures.count, result.failures.first));
+    print_message(fmt::format("{} candidates failed and counted as the worst; the first: {}",
+                              result.failures.count, result.failures.first));
   if (result.branch_steps > 0)
     fmt::print("{} branches refined in {} steps\n", result.overrides.nodes.size(), result.branch_steps);
   if (result.portrait && result.resemblances.size() > 1)
@@ -174,7 +174,7 @@ void run_fit(const FitArguments& arguments) {
   options.on_progress = [&line](const FitProgress& progress) {
     line.show([&] { return progress_text(progress); });
   };
-  if (!arguments.quiet) options.on_warning = [](const std::string& text) { print_warning(text); };
+  if (!arguments.quiet) options.on_warning = print_warning;
   FitRecord record = options.resume              ? resumed_record(arguments)
                      : !arguments.repeat.empty() ? repeated_record(arguments)
                                                  : new_record(arguments);

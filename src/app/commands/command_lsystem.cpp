@@ -110,7 +110,7 @@ void warn_of_ignored_leaves(const lsystem::Grammar& grammar, const lsystem::Symb
 void note_errors_of_functions(const lsystem::Grammar& grammar) {
   for (const lsystem::FunctionDeclaration& function : grammar.functions)
     if (!function.file.empty())
-      print_error(
+      print_message(
           fmt::format("{}: 7 numbers follow the function within {:.2g}", function.file, function.error));
 }
 

@@ -47,13 +47,11 @@ fs::path directory_of(const PosteriorOptions& options) {
   return out;
 }
 
-void warn(const std::string& text) { print_warning(text); }
-
 Mask read_silhouette(const PosteriorOptions& options, const TargetOptions& reading) {
   const TargetPicture picture = read_mask(options.request.picture, reading);
   const int height_px = box_of(picture.mask).height();
   if (!options.quiet && height_px < kSummaryFramePx)
-    warn(fmt::format(
+    print_warning(fmt::format(
         "{}: the tree is {} px tall, expected {} or more: the prior's plants are drawn finer than it",
         options.request.picture, height_px, kSummaryFramePx));
   return picture.mask;

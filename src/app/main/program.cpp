@@ -59,23 +59,23 @@ int print_parsing(const CLI::App& app, const std::vector<std::string>& words, co
     fmt::print("{}", app.help());
     return 0;
   }
-  print_error(explain_wrong_words(app, words, error));
+  print_message(explain_wrong_words(app, words, error));
   return 2;
 }
 
 /// What the input or the machine refuses exits 2, a failure of ours 1.
 int print_failure(const std::exception& error) {
   if (const auto* field = dynamic_cast<const FieldError*>(&error))
-    print_error(fmt::format("{}: {}", option_of(field->field), field->complaint));
+    print_message(fmt::format("{}: {}", option_of(field->field), field->complaint));
   else if (dynamic_cast<const InputError*>(&error))
-    print_error(error.what());
+    print_message(error.what());
   else if (dynamic_cast<const std::bad_alloc*>(&error))
-    print_error("got too little memory, expected more of it or a smaller input");
+    print_message("got too little memory, expected more of it or a smaller input");
   else if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
-    print_error(fmt::format("{}: got '{}', expected what can be read and written", file->path1().string(),
-                            file->code().message()));
+    print_message(fmt::format("{}: got '{}', expected what can be read and written", file->path1().string(),
+                              file->code().message()));
   else {
-    print_error(fmt::format("internal error: {}", error.what()));
+    print_message(fmt::format("internal error: {}", error.what()));
     return 1;
   }
   return 2;

@@ -1,17 +1,12 @@
 // What the program says on stderr: lines that scripts and people can read, whatever files, names and
 // libraries put into them. Printing never throws, and never waits for anything but the stream.
 #pragma once
-#include <string>
 #include <string_view>
 
 namespace espalier {
 
-/// One line of at most `longest` bytes: control characters and bytes that are no UTF-8 are written as \x1b,
-/// line breaks as blanks, and the middle of what is too long is left out.
-std::string one_line(std::string_view text, std::size_t longest);
-
-/// "espalier: TEXT", of at most 300 bytes.
-void print_error(std::string_view text);
+/// "espalier: TEXT" as one_line (core/text/one_line.h) writes it, of at most 300 bytes.
+void print_message(std::string_view text);
 /// "espalier: warning: TEXT", which may list more: at most 600 bytes.
 void print_warning(std::string_view text);
 /// These bytes, as they are.

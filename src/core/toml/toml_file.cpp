@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include <espalier/core/error.h>
+#include <espalier/core/text/one_line.h>
 #include <espalier/core/toml/toml_file.h>
 
 namespace espalier {
@@ -31,12 +32,10 @@ void check_text(const fs::path& path, const std::string& text) {
     throw_input_error("{}: got a binary file, expected TOML", path.string());
 }
 
-/// The parser's own words quote the file, which may hold anything: one printable line, not too long.
-std::string one_line(std::string_view text) {
-  std::string line(text.substr(0, 200));
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c >= 0x7f; }, ' ');
-  return line;
+/// The parser's own words quote the file, which may hold anything.
+std::string short_line(std::string_view text) {
+  constexpr std::size_t kLongest = 200;
+  return one_line(text, kLongest);
 }
 
 }  // namespace
@@ -57,7 +56,7 @@ toml::table parse_toml(std::string_view text, const std::string& source) {
     return toml::parse(text, source);
   } catch (const toml::parse_error& error) {
     throw_input_error("{}:{}: got bad TOML: {}", source, error.source().begin.line,
-                      one_line(error.description()));
+                      short_line(error.description()));
   }
 }
 
@@ -69,7 +68,7 @@ std::string toml_location(const std::string& source, const toml::node& node) {
 std::string describe_toml(const toml::node& node) {
   if (const auto number = node.value_exact<double>()) return fmt::format("{}", *number);
   if (const auto number = node.value_exact<std::int64_t>()) return fmt::format("{}", *number);
-  if (const auto text = node.value_exact<std::string>()) return fmt::format("'{}'", one_line(*text));
+  if (const auto text = node.value_exact<std::string>()) return fmt::format("'{}'", short_line(*text));
   if (const auto flag = node.value_exact<bool>()) return *flag ? "true" : "false";
   if (const toml::array* array = node.as_array()) return fmt::format("an array of {}", array->size());
   return node.is_table() ? "a table" : "a date or time";

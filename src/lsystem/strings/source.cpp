@@ -15,14 +15,6 @@ std::string describe(const Position& position) {
   return fmt::format("{}:{}:{}", position.source->label, line, column);
 }
 
-std::string one_line(std::string text) {
-  constexpr std::size_t kLongest = 600;
-  if (text.size() > kLongest)
-    text = fmt::format("{} … {}", text.substr(0, kLongest / 2), text.substr(text.size() - kLongest / 2));
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 std::filesystem::path note_file(const std::string& name, const Source& source) {
   std::filesystem::path path = source.folder / name;
   std::error_code none;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <espalier/core/error.h>
+#include <espalier/core/text/one_line.h>
 
 namespace espalier::lsystem {
 
@@ -33,13 +34,13 @@ struct Position {
 /// "file:line:column", both from 1; "L-system" for a position in no file.
 std::string describe(const Position& position);
 
-/// The text with blanks for its line breaks, its middle left out where it is long: messages quote what files
-/// say.
-std::string one_line(std::string text);
+/// Of a message that quotes what a file says.
+inline constexpr std::size_t kLongestMessage = 600;
 
 template <typename... Args>
 [[noreturn]] void throw_at(const Position& position, fmt::format_string<Args...> format, Args&&... args) {
-  throw InputError(one_line(describe(position) + ": " + fmt::format(format, std::forward<Args>(args)...)));
+  throw InputError(one_line(describe(position) + ": " + fmt::format(format, std::forward<Args>(args)...),
+                            kLongestMessage));
 }
 
 /// The path of a file beside the source's, which is noted as read. Throws InputError where there is something

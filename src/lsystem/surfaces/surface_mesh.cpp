@@ -57,7 +57,8 @@ std::vector<Triangle> read_surface_mesh(const std::string& bytes, const std::str
       bytes.data(), bytes.size(), aiProcess_Triangulate | aiProcess_PreTransformVertices, format.c_str());
   if (!scene)
     throw InputError(
-        one_line(fmt::format("surface \"{}\": expected a mesh: {}", label, importer.GetErrorString())));
+        one_line(fmt::format("surface \"{}\": expected a mesh: {}", label, importer.GetErrorString()),
+                 kLongestMessage));
   std::vector<Triangle> triangles;
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) append_faces(*scene->mMeshes[m], label, triangles);
   if (triangles.empty()) throw_input_error("surface \"{}\": got no triangles, expected some", label);

@@ -54,7 +54,7 @@ int surface_by_name(std::string_view name, const Appearance& appearance) {
     known.push_back(appearance.surfaces[i].name);
   }
   throw_input_error("got surface '{}', expected one of this file or a built-in one, the closest is \"{}\"",
-                    one_line(std::string(name)), closest_name(std::string(name), known));
+                    one_line(name, kLongestMessage), closest_name(std::string(name), known));
 }
 
 std::vector<Triangle> outline_triangles(int surface) {

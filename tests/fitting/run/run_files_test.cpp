@@ -107,6 +107,9 @@ TEST(RunFiles, OfARunThatIsReadAgainAreTheSame) {
   FitRecord oaks{.views = {{"tree.png", {}}}};
   oaks.species = write_lines(models / "oak.toml", "extends = \"black_oak\"\ng_scale = 8\n");
   expect_same_when_read_again(oaks, models, folder / "oaks");
+  FitRecord pines{.model = "small_pine.lsys", .views = {{"tree.png", {}}}};  // a bundled one
+  pines.start = write_lines(models / "pine.toml", "model = \"small_pine.lsys\"\nbranch_angle = 60\n");
+  expect_same_when_read_again(pines, models, folder / "pines");
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
-// What the program says on stderr is one line that a terminal can be given, whatever is in it.
+// A message is one line that a terminal can be given, whatever is in it.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <espalier/app/options/messages.h>
+#include <espalier/core/text/one_line.h>
 
 namespace espalier {
 namespace {
