@@ -6,7 +6,7 @@
 namespace espalier {
 
 /// At most `longest` bytes, which are more than 120: control characters and bytes that are no UTF-8 are
-/// written as \x1b, line breaks as blanks, and the middle of what is too long is left out.
+/// written as `\x1b`, line breaks as blanks, and the middle of what is too long is left out.
 std::string one_line(std::string_view text, std::size_t longest);
 
 }  // namespace espalier
