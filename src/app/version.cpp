@@ -10,6 +10,7 @@
 #include <nlopt.hpp>
 
 #include <espalier/app/version.h>
+#include <espalier/libm/libm.h>
 
 namespace espalier {
 
@@ -27,6 +28,7 @@ std::vector<LibraryVersion> library_versions() {
       {"OpenImageIO", ESPALIER_OPENIMAGEIO_VERSION},
       {"NLopt", dotted(nlopt::version_major(), nlopt::version_minor(), nlopt::version_bugfix())},
       {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"SLEEF", sleef_version()},
       {"Assimp", dotted(static_cast<int>(aiGetVersionMajor()), static_cast<int>(aiGetVersionMinor()),
                         static_cast<int>(aiGetVersionPatch()))},
       {"fmt", dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},

@@ -14,11 +14,12 @@ branches, the archive), and drawn, of the pixels of all pictures and of the char
 two runs of one program: seconds, versions, and directories of pictures; and the count of pixels in which Embree
 disagrees, which depends on the vectors that Embree chooses. Comments in TOML files are not compared.
 
-The digests do not depend on the number of threads, or on the vectors that Highway and Embree choose (SSE2 to AVX-512).
-They do depend on the C library's sin, exp, pow and so on, of which it has variants with and without fused
-multiply-add: with GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-AVX2_Usable,-FMA_Usable 21 of the 74 differ, three of
-them because the run refuses to be resumed. So expect these digests of x86-64 processors with FMA and AVX2 (2013 and
-later) and glibc 2.36; elsewhere compare two programs by recording with the older one first.
+The digests do not depend on the number of threads, on the vectors that Highway and Embree choose (SSE2 to AVX-512), or
+on the processor and the version of the C library, whose exp, log and pow Espalier does not use (src/libm). They were
+the same with GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-AVX and so on, of which ctest runs a fifth.
+
+Version 0.1.0 used the C library's functions, so its candidates differ in last bits, and today's program refuses to go
+on with its logs. The logs and branches.json in runs/ are therefore of today's candidates, in version 0.1.0's format.
 
 A digest that differs means that the same command gives another tree than before. Record anew only where that is
 meant, and write the reason into the commit message. Never record anew to make a restructuring pass."""
