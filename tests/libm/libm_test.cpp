@@ -88,22 +88,79 @@ RC_GTEST_PROP(Libm, SineAndCosineTogetherAreThoseAlone, ()) {
   sincos(x, &sine, &cosine);
   RC_ASSERT(error_ulp(sine, std::sin(static_cast<long double>(x))) <= 1.0L);
   RC_ASSERT(error_ulp(cosine, std::cos(static_cast<long double>(x))) <= 1.0L);
-  float sine_f = 0, cosine_f = 0;
-  sincosf(static_cast<float>(x), &sine_f, &cosine_f);
-  RC_ASSERT(std::abs(sine_f - std::sin(static_cast<float>(x))) <= 1e-6f);
-  RC_ASSERT(std::abs(cosine_f - std::cos(static_cast<float>(x))) <= 1e-6f);
+  const float narrow = static_cast<float>(x);
+  float narrow_sine = 0, narrow_cosine = 0;
+  sincosf(narrow, &narrow_sine, &narrow_cosine);
+  RC_ASSERT(narrow_sine == std::sin(narrow));
+  RC_ASSERT(narrow_cosine == std::cos(narrow));
 }
 
-RC_GTEST_PROP(Libm, OfSinglePrecisionIsWithinTwoPlaces, ()) {
-  const float x = static_cast<float>(opaque(*rc::gen::inRange(1, 100'000) / 1e4));
-  const auto near = [](float got, double right) {
-    return std::abs(got - right) <= 2.4e-7 * std::max(std::abs(right), 1e-3);
+/// Within half a unit in the last place, and a millionth of it for the rounding of what is rounded.
+::testing::AssertionResult is_rounded(const char* name, float got, double right) {
+  const float rounded = static_cast<float>(right);
+  const float last_place =
+      std::nextafter(std::abs(rounded), std::numeric_limits<float>::infinity()) - std::abs(rounded);
+  if (got == rounded || std::abs(got - right) <= .501 * last_place) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << name << ": " << bits_of(got) << ", expected " << bits_of(rounded);
+}
+
+RC_GTEST_PROP(Libm, OfSinglePrecisionIsTheRightOneRounded, ()) {
+  const float x = static_cast<float>(opaque(*rc::gen::inRange(1, 800'000) / 1e4)), part = x / 81;
+  const double wide = x, narrow = part;
+  for (const auto& result : {is_rounded("exp", std::exp(x), std::exp(wide)),
+                             is_rounded("exp2", std::exp2(x), std::exp2(wide)),
+                             is_rounded("expm1", std::expm1(x), std::expm1(wide)),
+                             is_rounded("log", std::log(x), std::log(wide)),
+                             is_rounded("log2", std::log2(x), std::log2(wide)),
+                             is_rounded("log10", std::log10(x), std::log10(wide)),
+                             is_rounded("log1p", std::log1p(x), std::log1p(wide)),
+                             is_rounded("cbrt", std::cbrt(x), std::cbrt(wide)),
+                             is_rounded("hypot", std::hypot(x, part), std::hypot(wide, narrow)),
+                             is_rounded("sin", std::sin(x), std::sin(wide)),
+                             is_rounded("cos", std::cos(x), std::cos(wide)),
+                             is_rounded("tan", std::tan(x), std::tan(wide)),
+                             is_rounded("asin", std::asin(part), std::asin(narrow)),
+                             is_rounded("acos", std::acos(part), std::acos(narrow)),
+                             is_rounded("atan", std::atan(x), std::atan(wide)),
+                             is_rounded("atan2", std::atan2(x, part), std::atan2(wide, narrow)),
+                             is_rounded("sinh", std::sinh(x), std::sinh(wide)),
+                             is_rounded("cosh", std::cosh(x), std::cosh(wide)),
+                             is_rounded("tanh", std::tanh(part), std::tanh(narrow)),
+                             is_rounded("erf", std::erf(part), std::erf(narrow)),
+                             is_rounded("erfc", std::erfc(part), std::erfc(narrow))})
+    RC_ASSERT(static_cast<bool>(result));
+}
+
+RC_GTEST_PROP(Libm, APowerOfSinglePrecisionIsTheRightOneRounded, ()) {
+  const float x = static_cast<float>(opaque(std::exp2(*rc::gen::inRange(-20'000, 20'000) / 1e3)));
+  const float y = static_cast<float>(opaque(*rc::gen::inRange(-59'000, 59'000) / 1e4));
+  RC_ASSERT(static_cast<bool>(
+      is_rounded("pow", std::pow(x, y), std::pow(static_cast<double>(x), static_cast<double>(y)))));
+}
+
+RC_GTEST_PROP(Libm, APowerOfAGreatExponentIsWithinAPlace, ()) {
+  const float x = static_cast<float>(opaque(std::exp2(*rc::gen::inRange(-1'000, 1'000) / 1e3)));
+  const float y = static_cast<float>(opaque(*rc::gen::inRange(60'000, 900'000) / 1e4));
+  const double right = std::pow(static_cast<double>(x), static_cast<double>(y));
+  RC_ASSERT(std::abs(std::pow(x, y) - right) <= 1.2e-7 * right);
+}
+
+TEST(Libm, APowerOfSinglePrecisionEndsAsPowersDo) {
+  const auto power = [](double x, double y) {
+    return std::pow(static_cast<float>(opaque(x)), static_cast<float>(opaque(y)));
   };
-  RC_ASSERT(near(std::exp(x), std::exp(static_cast<double>(x))));
-  RC_ASSERT(near(std::log(x), std::log(static_cast<double>(x))));
-  RC_ASSERT(near(std::pow(x, 1.7f), std::pow(static_cast<double>(x), static_cast<double>(1.7f))));
-  RC_ASSERT(near(std::atan2(x, 2.0f), std::atan2(static_cast<double>(x), 2.0)));
-  RC_ASSERT(near(std::hypot(x, 2.0f), std::hypot(static_cast<double>(x), 2.0)));
+  const float infinity = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(power(0, 2), 0);
+  EXPECT_EQ(power(0, -1), infinity);
+  EXPECT_EQ(power(-2, 3), -8);
+  EXPECT_TRUE(std::isnan(power(-2, .5)));
+  EXPECT_TRUE(std::isnan(power(std::nan(""), 2)));
+  EXPECT_EQ(power(1e30, 2), infinity);
+  EXPECT_EQ(power(1e-30, 2), 0);
+  EXPECT_EQ(power(infinity, -1), 0);
+  EXPECT_EQ(power(5, 0), 1);
+  EXPECT_EQ(power(1, 5.9), 1);
+  EXPECT_EQ(power(2, infinity), infinity);
 }
 
 TEST(Libm, KeepsTheLawsOfInfinitiesAndNaN) {
