@@ -41,8 +41,9 @@ void grow_to(double time, int steps, lsystem::Derivation& derivation, Plant& pla
     derivation.advance(static_cast<int>(step));
   else
     derivation.run(steps);
-  lsystem::build_plant(derivation.interpreted(time - step), derivation.alphabet(), derivation.settings(),
-                       plant);
+  derivation.work().restart();  // what is asked for is a picture more
+  const lsystem::ModuleString& drawn = derivation.interpreted(time - step);
+  lsystem::build_plant(drawn, derivation.alphabet(), derivation.settings(), plant, derivation.work());
 }
 
 }  // namespace

@@ -25,10 +25,12 @@ std::size_t count_typos(std::string_view a, std::string_view b) {
   return typos[a.size()][b.size()];
 }
 
-/// 1 where the word was cut short: it is the beginning of the name.
+/// 1 where the word was cut short: it is the beginning of the name. Words of more than
+/// 100 letters are compared by their beginnings.
 std::size_t steps_between(std::string_view word, std::string_view name) {
+  constexpr std::size_t kMostLetters = 100;
   const bool is_cut_short = word.size() >= 2 && name.starts_with(word) && name != word;
-  return is_cut_short ? 1 : count_typos(word, name);
+  return is_cut_short ? 1 : count_typos(word.substr(0, kMostLetters), name.substr(0, kMostLetters));
 }
 
 }  // namespace

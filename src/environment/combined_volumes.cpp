@@ -15,9 +15,24 @@ void check_parts(const std::vector<VolumePtr>& parts) {
     throw InternalError("volumes of a volume: one is missing");
 }
 
+/// The size of a volume of these.
+VolumeSize size_of(const std::vector<VolumePtr>& parts) {
+  VolumeSize size{1, 0};
+  for (const VolumePtr& part : parts) {
+    size.parts += part->size().parts;
+    size.depth = std::max(size.depth, part->size().depth);
+  }
+  ++size.depth;
+  return size;
+}
+
 class Union final : public Volume {
  public:
-  explicit Union(std::vector<VolumePtr> parts) : parts_(std::move(parts)) { check_parts(parts_); }
+  explicit Union(std::vector<VolumePtr> parts) : parts_(std::move(parts)) {
+    check_parts(parts_);
+    size_ = size_of(parts_);
+  }
+  VolumeSize size() const override { return size_; }
   bool contains(Vec3 p) const override {
     return std::any_of(parts_.begin(), parts_.end(),
                        [&](const VolumePtr& part) { return part->contains(p); });
@@ -34,11 +49,16 @@ class Union final : public Volume {
 
  private:
   std::vector<VolumePtr> parts_;
+  VolumeSize size_;
 };
 
 class Intersection final : public Volume {
  public:
-  explicit Intersection(std::vector<VolumePtr> parts) : parts_(std::move(parts)) { check_parts(parts_); }
+  explicit Intersection(std::vector<VolumePtr> parts) : parts_(std::move(parts)) {
+    check_parts(parts_);
+    size_ = size_of(parts_);
+  }
+  VolumeSize size() const override { return size_; }
   bool contains(Vec3 p) const override {
     return std::all_of(parts_.begin(), parts_.end(),
                        [&](const VolumePtr& part) { return part->contains(p); });
@@ -55,11 +75,16 @@ class Intersection final : public Volume {
 
  private:
   std::vector<VolumePtr> parts_;
+  VolumeSize size_;
 };
 
 class Difference final : public Volume {
  public:
-  explicit Difference(std::vector<VolumePtr> parts) : parts_(std::move(parts)) { check_parts(parts_); }
+  explicit Difference(std::vector<VolumePtr> parts) : parts_(std::move(parts)) {
+    check_parts(parts_);
+    size_ = size_of(parts_);
+  }
+  VolumeSize size() const override { return size_; }
   bool contains(Vec3 p) const override {
     return parts_.front()->contains(p) &&
            std::none_of(parts_.begin() + 1, parts_.end(),
@@ -74,6 +99,7 @@ class Difference final : public Volume {
 
  private:
   std::vector<VolumePtr> parts_;
+  VolumeSize size_;
 };
 
 /// The field of a soft object at distance r of its radius of influence [Wyvill, McPheeters, Wyvill 1986,
@@ -97,7 +123,9 @@ class Blend final : public Volume {
  public:
   Blend(float width_m, std::vector<VolumePtr> parts) : width_m_(width_m), parts_(std::move(parts)) {
     check_parts(parts_);
+    size_ = size_of(parts_);
   }
+  VolumeSize size() const override { return size_; }
   bool contains(Vec3 p) const override { return signed_distance_m(p) <= 0; }
   /// Where the fields' sum is what one part would have alone; beyond the reach of fields, the nearest part.
   float signed_distance_m(Vec3 p) const override {
@@ -116,11 +144,13 @@ class Blend final : public Volume {
  private:
   float width_m_;
   std::vector<VolumePtr> parts_;
+  VolumeSize size_;
 };
 
 class Moved final : public Volume {
  public:
-  Moved(Vec3 by_m, VolumePtr part) : by_m_(by_m), part_(std::move(part)) {}
+  Moved(Vec3 by_m, VolumePtr part) : by_m_(by_m), part_(std::move(part)), size_(size_of({part_})) {}
+  VolumeSize size() const override { return size_; }
   bool contains(Vec3 p) const override { return part_->contains(p - by_m_); }
   bool surely_contains_ball(Vec3 center_m, float radius_m) const override {
     return part_->surely_contains_ball(center_m - by_m_, radius_m);
@@ -130,11 +160,13 @@ class Moved final : public Volume {
  private:
   Vec3 by_m_;
   VolumePtr part_;
+  VolumeSize size_;
 };
 
 class Scaled final : public Volume {
  public:
-  Scaled(float factor, VolumePtr part) : factor_(factor), part_(std::move(part)) {}
+  Scaled(float factor, VolumePtr part) : factor_(factor), part_(std::move(part)), size_(size_of({part_})) {}
+  VolumeSize size() const override { return size_; }
   bool contains(Vec3 p) const override { return part_->contains(p * (1 / factor_)); }
   bool surely_contains_ball(Vec3 center_m, float radius_m) const override {
     return part_->surely_contains_ball(center_m * (1 / factor_), radius_m / factor_);
@@ -146,6 +178,7 @@ class Scaled final : public Volume {
  private:
   float factor_;
   VolumePtr part_;
+  VolumeSize size_;
 };
 
 class Turned final : public Volume {
@@ -153,7 +186,9 @@ class Turned final : public Volume {
   Turned(double angle_rad, VolumePtr part)
       : cosine_(static_cast<float>(std::cos(angle_rad))),
         sine_(static_cast<float>(std::sin(angle_rad))),
-        part_(std::move(part)) {}
+        part_(std::move(part)),
+        size_(size_of({part_})) {}
+  VolumeSize size() const override { return size_; }
   bool contains(Vec3 p) const override { return part_->contains(turned_back(p)); }
   bool surely_contains_ball(Vec3 center_m, float radius_m) const override {
     return part_->surely_contains_ball(turned_back(center_m), radius_m);
@@ -165,6 +200,7 @@ class Turned final : public Volume {
 
   float cosine_, sine_;
   VolumePtr part_;
+  VolumeSize size_;
 };
 
 void check_positive(const char* what, float number) {

@@ -73,7 +73,10 @@ class ColumnGrid {
     find_bounds();
     choose_size();
     fill();
+    find_most();
   }
+
+  std::size_t most_in_cell() const { return most_in_cell_; }
 
   /// Sum of the signed crossings of the ray from p, or their number where orientation means nothing.
   int crossings(Vec3 point_m, bool oriented) const {
@@ -105,6 +108,11 @@ class ColumnGrid {
     const auto [u_0, u_1] = std::minmax({t[0].u, t[1].u, t[2].u});
     const auto [v_0, v_1] = std::minmax({t[0].v, t[1].v, t[2].v});
     return {column(u_0), column(u_1), row(v_0), row(v_1)};
+  }
+
+  void find_most() {
+    for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell)
+      most_in_cell_ = std::max<std::size_t>(most_in_cell_, first_[cell + 1] - first_[cell]);
   }
 
   void find_bounds() {
@@ -148,6 +156,7 @@ class ColumnGrid {
   }
 
   int axis_, size_ = 1;
+  std::size_t most_in_cell_ = 0;
   AxisPoint lower_{}, upper_{};
   std::vector<AxisTriangle> triangles_;
   std::vector<std::uint32_t> first_, members_;  ///< cell c holds members_[first_[c], first_[c + 1])
@@ -159,6 +168,13 @@ class MeshVolume final : public Volume {
       : oriented_(mesh.oriented),
         distance_(mesh),
         grids_{ColumnGrid(mesh, 2), ColumnGrid(mesh, 0), ColumnGrid(mesh, 1)} {}
+
+  /// As if the triangles that one ray may meet were volumes, several at the price of one.
+  VolumeSize size() const override {
+    const std::size_t most =
+        std::max({grids_[0].most_in_cell(), grids_[1].most_in_cell(), grids_[2].most_in_cell()});
+    return {50 + static_cast<double>(most) / 10, 1};
+  }
 
   /// Rays along z and x; where rounding at the surface makes them disagree, y decides.
   bool contains(Vec3 point_m) const override {

@@ -13,6 +13,12 @@
 
 namespace espalier {
 
+/// What a question to a volume takes: how many simple ones may be asked for it, and how deep calls go.
+struct VolumeSize {
+  double parts = 1;
+  int depth = 1;
+};
+
 class Volume {
  public:
   virtual ~Volume() = default;
@@ -26,6 +32,8 @@ class Volume {
     (void)center_m, (void)radius_m;
     return false;
   }
+  /// Known once it is made: asking is cheap.
+  virtual VolumeSize size() const { return {}; }
 };
 
 /// An upright box. Throws InputError unless every size is positive and every number finite.

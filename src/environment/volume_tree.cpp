@@ -16,6 +16,8 @@ using Numbers = std::vector<float>;
 using Parts = std::vector<VolumePtr>;
 constexpr std::size_t kMany = 1000;
 constexpr int kMaxDepth = 100;
+constexpr double kMostParts = 100'000;  // of a volume of volumes that are volumes of volumes
+constexpr int kDeepest = 500;
 
 struct Kind {
   std::string_view name, form;
@@ -247,6 +249,16 @@ Numbers named_numbers(const VolumeTree& tree, std::size_t slots, const NumberOf&
   return numbers;
 }
 
+/// Names stand for whole volumes, so that few lines make many.
+VolumePtr checked(VolumePtr volume) {
+  const VolumeSize size = volume->size();
+  if (size.parts > kMostParts)
+    throw_input_error("got a volume of {:.3g} volumes, expected at most {}", size.parts, kMostParts);
+  if (size.depth > kDeepest)
+    throw_input_error("got volumes in {} volumes, expected in at most {}", size.depth, kDeepest);
+  return volume;
+}
+
 }  // namespace
 
 VolumePtr make_volume(const VolumeTree& tree, const NumberOf& number, const NamedVolume& named) {
@@ -259,7 +271,7 @@ VolumePtr make_volume(const VolumeTree& tree, const NumberOf& number, const Name
   if (tree.from_file) parts.push_back(tree.from_file);
   for (const VolumeTree& part : tree.parts) parts.push_back(make_volume(part, number, named));
   try {
-    return kind->make(numbers, std::move(parts));
+    return checked(kind->make(numbers, std::move(parts)));
   } catch (const InputError& error) {
     throw VolumeError(tree.offset, error.what());
   }

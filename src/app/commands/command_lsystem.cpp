@@ -57,7 +57,8 @@ void draw(const Plant& plant, const Camera& camera, const LsystemOptions& option
 
 Plant plant_of(lsystem::Derivation& derivation) {
   Plant plant;
-  lsystem::build_plant(derivation.interpreted(), derivation.alphabet(), derivation.settings(), plant);
+  const lsystem::ModuleString& drawn = derivation.interpreted();
+  lsystem::build_plant(drawn, derivation.alphabet(), derivation.settings(), plant, derivation.work());
   return plant;
 }
 
@@ -192,6 +193,10 @@ void add_lsystem_command(CLI::App& app) {
   command
       ->add_option("--max-lua", options->limits.lua_instructions,
                    "instructions that the file's Lua code may run")
+      ->capture_default_str();
+  command
+      ->add_option("--max-work", options->limits.work,
+                   "work of the derivation and its drawing, in units of about a nanosecond")
       ->capture_default_str();
   command->callback([options] { run_lsystem(*options); });
 }

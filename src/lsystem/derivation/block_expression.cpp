@@ -10,6 +10,8 @@ namespace espalier::lsystem {
 
 namespace {
 
+constexpr std::size_t kMostExpressions = 50'000;
+
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
 /// The names an expression uses as variables or functions: words that follow neither '.' nor ':'.
@@ -38,7 +40,7 @@ void check_names(const Expression& expression, std::span<const std::string> colu
     if (!shared.lua.has_global(name))
       throw_at(expression.position,
                "'{}': got the unknown name '{}', expected a parameter, a constant or a function",
-               expression.text, name);
+               shortened(expression.text), shortened(name));
   }
 }
 
@@ -47,12 +49,15 @@ void check_names(const Expression& expression, std::span<const std::string> colu
 BlockExpression::BlockExpression(const Expression& expression, std::span<const std::string> columns,
                                  bool is_condition, RuleContext& shared)
     : source_(&expression) {
+  if (++shared.expressions > kMostExpressions)
+    throw_at(expression.position, "got more than {} expressions, expected fewer", kMostExpressions);
   shared.lua.check_expression(expression.text, expression.position);
   check_names(expression, columns, shared);
   try {
-    program_ = compile_program(expression.text, columns, shared.grammar.names, shared.random_sites);
+    program_ = compile_program(expression.text, columns, shared.grammar.names, shared.random_sites,
+                               shared.expanded_bytes);
   } catch (const InputError& error) {
-    throw_at(expression.position, "'{}': {}", expression.text, error.what());
+    throw_at(expression.position, "'{}': {}", shortened(expression.text), error.what());
   }
   if (program_ && program_->is_condition != is_condition) program_.reset();
   if (!program_) function_ = shared.functions.compile(expression, columns, is_condition);
@@ -60,10 +65,15 @@ BlockExpression::BlockExpression(const Expression& expression, std::span<const s
 
 Column BlockExpression::compute(std::span<const Column> columns, const RandomKey* keys, std::size_t count,
                                 RuleContext& shared) {
-  if (program_)
+  if (program_) {
+    shared.work.add(work_of::kBlock / 2 +
+                    static_cast<double>(program_->code.size()) *
+                        (work_of::kOperation * static_cast<double>(count) + work_of::kBlock / 4));
     return run_program(
         *program_, {columns, shared.globals.data(), keys, count, &shared.surroundings, shared.curves.data()},
         scratch_);
+  }
+  shared.work.add(work_of::kLuaCall + work_of::kValue * static_cast<double>(count * (columns.size() + 1)));
   scratch_.resize(kBlockSize);
   shared.functions.evaluate(function_, columns, keys, count, scratch_.data());
   return {scratch_.data(), 1};

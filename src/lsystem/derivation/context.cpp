@@ -30,9 +30,10 @@ void StringIndex::build(const ModuleString& string, const SymbolTable& alphabet,
   }
 }
 
-std::size_t StringIndex::previous(std::size_t i) const {
+std::size_t StringIndex::previous(std::size_t i, Work& work) const {
   while (i > 0) {
     --i;
+    work.add(work_of::kContextStep);
     if (symbols_[i] == close_)
       i = partner_[i];
     else if (symbols_[i] != open_ && !skipped_[symbols_[i]])
@@ -41,75 +42,83 @@ std::size_t StringIndex::previous(std::size_t i) const {
   return kNone;
 }
 
-bool StringIndex::match_path(std::size_t i, std::span<const PatternModule> pattern,
-                             std::uint32_t* matched) const {
+bool StringIndex::match_path(std::size_t i, std::span<const PatternModule> pattern, std::uint32_t* matched,
+                             Work& work) const {
   for (std::size_t k = pattern.size(); k-- > 0;) {
-    i = previous(i);
+    i = previous(i, work);
     if (i == kNone || symbols_[i] != pattern[k].symbol) return false;
     matched[k] = static_cast<std::uint32_t>(i);
   }
   return true;
 }
 
-bool StringIndex::match_from(std::size_t at, std::span<const PatternModule> pattern,
-                             std::uint32_t* matched) const {
-  if (pattern.empty()) return true;
-  if (pattern[0].symbol == open_) return match_branch(at, pattern, matched);
-  if (pattern[0].symbol == close_) return match_end(at, pattern, matched);
-  return match_module(at, pattern, matched);
-}
-
-/// The pattern goes on in a branch: the first one here that it fits.
-bool StringIndex::match_branch(std::size_t at, std::span<const PatternModule> pattern,
-                               std::uint32_t* matched) const {
-  for (; at < size_; ++at) {
-    if (symbols_[at] == open_) {
-      if (match_from(at + 1, pattern.subspan(1), matched + 1)) return true;
-      at = partner_[at];
-    } else if (symbols_[at] == close_ || !skipped_[symbols_[at]]) {
-      return false;
-    }
+/// The next module of the axis that a context cannot look past, or the end of its branch.
+std::size_t StringIndex::end_of_axis(std::size_t at, Work& work) const {
+  for (; at < size_ && !is_plain(at) && symbols_[at] != close_; ++at) {
+    work.add(work_of::kContextStep);
+    if (symbols_[at] == open_) at = partner_[at];
   }
-  return false;
+  return at;
 }
 
-/// The pattern leaves its branch; what else is in it does not matter.
-bool StringIndex::match_end(std::size_t at, std::span<const PatternModule> pattern,
-                            std::uint32_t* matched) const {
-  for (; at < size_; ++at) {
-    if (symbols_[at] == open_)
-      at = partner_[at];
-    else if (symbols_[at] == close_)
-      return match_from(at + 1, pattern.subspan(1), matched + 1);
-  }
-  return false;
-}
-
-bool StringIndex::match_module(std::size_t at, std::span<const PatternModule> pattern,
-                               std::uint32_t* matched) const {
-  const std::size_t start = at;
+std::size_t StringIndex::end_of_branch(std::size_t at, Work& work) const {
   for (; at < size_ && symbols_[at] != close_; ++at) {
-    if (symbols_[at] == open_) {
-      at = partner_[at];
-    } else if (!skipped_[symbols_[at]]) {
-      if (symbols_[at] != pattern[0].symbol) break;
-      matched[0] = static_cast<std::uint32_t>(at);
-      if (match_from(at + 1, pattern.subspan(1), matched + 1)) return true;
-      break;
-    }
+    work.add(work_of::kContextStep);
+    if (symbols_[at] == open_) at = partner_[at];
   }
-  return follow_branches_ && follow(start, at, pattern, matched);
+  return at;
 }
 
-/// The pattern goes on in one of the branches between two places of an axis.
-bool StringIndex::follow(std::size_t begin, std::size_t end, std::span<const PatternModule> pattern,
-                         std::uint32_t* matched) const {
-  for (std::size_t i = begin; i < end; ++i) {
-    if (symbols_[i] != open_) continue;
-    if (match_module(i + 1, pattern, matched)) return true;
-    i = partner_[i];
+/// The first branch that opens in [begin, end) of an axis, or the end.
+std::size_t StringIndex::next_branch(std::size_t begin, std::size_t end, Work& work) const {
+  for (; begin < end && symbols_[begin] != open_; ++begin) work.add(work_of::kContextStep);
+  return begin;
+}
+
+/// A search in depth, whose choices lie on a stack of their own: strings may be nested deeper than calls. A
+/// bracket in the pattern goes on in the first branch that fits, its end behind the branch that it is in,
+/// whatever else is there; a module is the next one of the axis, or, where branches are followed, of one of
+/// the branches before that. With them the search may take exponentially many steps, which are work.
+bool StringIndex::match_tree(std::size_t at, std::span<const PatternModule> pattern, std::uint32_t* matched,
+                             Work& work) const {
+  choices_.clear();
+  std::size_t k = 0;
+  for (;;) {
+    work.add(work_of::kContextStep);
+    bool fits = true;
+    if (pattern[k].symbol == open_) {
+      choices_.push_back({k, at, end_of_axis(at, work)});
+      fits = false;  // its first branch is the first choice
+    } else if (pattern[k].symbol == close_) {
+      at = end_of_branch(at, work) + 1;
+      fits = at <= size_;
+    } else {
+      const std::size_t next = end_of_axis(at, work);
+      if (follow_branches_ && next > at) choices_.push_back({k, at, next});
+      fits = next < size_ && symbols_[next] == pattern[k].symbol;
+      matched[k] = static_cast<std::uint32_t>(next);
+      at = next + 1;
+    }
+    if (fits) {
+      if (++k == pattern.size()) return true;
+      continue;
+    }
+    std::size_t branch = 0;
+    for (;;) {
+      if (choices_.empty()) return false;
+      Choice& choice = choices_.back();
+      work.add(work_of::kContextStep);
+      branch = next_branch(choice.begin, choice.end, work);
+      k = choice.pattern;
+      if (branch < choice.end) {
+        choice.begin = partner_[branch] + 1;
+        break;
+      }
+      choices_.pop_back();
+    }
+    at = branch + 1;
+    if (pattern[k].symbol == open_ && ++k == pattern.size()) return true;
   }
-  return false;
 }
 
 }  // namespace espalier::lsystem

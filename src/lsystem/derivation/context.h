@@ -10,6 +10,7 @@
 
 #include <espalier/lsystem/notation/grammar.h>
 #include <espalier/lsystem/strings/module_string.h>
+#include <espalier/lsystem/strings/work.h>
 
 namespace espalier::lsystem {
 
@@ -21,21 +22,23 @@ class StringIndex {
              std::span<const std::uint8_t> skipped, bool follow_branches);
 
   /// Whether the path before module `i` ends with `pattern`; writes the place of each matched module.
-  bool match_left(std::size_t i, std::span<const PatternModule> pattern, std::uint32_t* matched) const {
+  bool match_left(std::size_t i, std::span<const PatternModule> pattern, std::uint32_t* matched,
+                  Work& work) const {
     // Most contexts are one module that stands beside: no walk is needed.
     if (pattern.size() == 1 && i > 0 && symbols_[i - 1] == pattern[0].symbol && is_plain(i - 1)) {
       matched[0] = static_cast<std::uint32_t>(i - 1);
       return true;
     }
-    return pattern.empty() || match_path(i, pattern, matched);
+    return pattern.empty() || match_path(i, pattern, matched, work);
   }
   /// Whether what follows module `i` starts with `pattern`; writes the place of each matched module.
-  bool match_right(std::size_t i, std::span<const PatternModule> pattern, std::uint32_t* matched) const {
+  bool match_right(std::size_t i, std::span<const PatternModule> pattern, std::uint32_t* matched,
+                   Work& work) const {
     if (pattern.size() == 1 && i + 1 < size_ && is_plain(i + 1)) {
       matched[0] = static_cast<std::uint32_t>(i + 1);
       return symbols_[i + 1] == pattern[0].symbol;
     }
-    return match_from(i + 1, pattern, matched);
+    return pattern.empty() || match_tree(i + 1, pattern, matched, work);
   }
 
   std::uint32_t value_offset(std::size_t module) const { return value_offset_[module]; }
@@ -47,14 +50,20 @@ class StringIndex {
   bool is_plain(std::size_t i) const {
     return symbols_[i] != open_ && symbols_[i] != close_ && !skipped_[symbols_[i]];
   }
-  bool match_path(std::size_t i, std::span<const PatternModule> pattern, std::uint32_t* matched) const;
-  std::size_t previous(std::size_t i) const;
-  bool match_from(std::size_t at, std::span<const PatternModule> pattern, std::uint32_t* matched) const;
-  bool match_branch(std::size_t at, std::span<const PatternModule> pattern, std::uint32_t* matched) const;
-  bool match_end(std::size_t at, std::span<const PatternModule> pattern, std::uint32_t* matched) const;
-  bool follow(std::size_t begin, std::size_t end, std::span<const PatternModule> pattern,
-              std::uint32_t* matched) const;
-  bool match_module(std::size_t at, std::span<const PatternModule> pattern, std::uint32_t* matched) const;
+  bool match_path(std::size_t i, std::span<const PatternModule> pattern, std::uint32_t* matched,
+                  Work& work) const;
+  std::size_t previous(std::size_t i, Work& work) const;
+
+  /// Where the right context may go on in another way: the module `pattern` of it in the branches that open
+  /// in [begin, end).
+  struct Choice {
+    std::size_t pattern = 0, begin = 0, end = 0;
+  };
+  bool match_tree(std::size_t at, std::span<const PatternModule> pattern, std::uint32_t* matched,
+                  Work& work) const;
+  std::size_t end_of_axis(std::size_t at, Work& work) const;
+  std::size_t end_of_branch(std::size_t at, Work& work) const;
+  std::size_t next_branch(std::size_t begin, std::size_t end, Work& work) const;
 
   const SymbolId* symbols_ = nullptr;
   std::size_t size_ = 0;
@@ -63,6 +72,7 @@ class StringIndex {
   std::span<const std::uint8_t> skipped_;
   Buffer<std::uint32_t> value_offset_, partner_;
   std::vector<std::uint32_t> opened_;
+  mutable std::vector<Choice> choices_;  ///< of the match under way
 };
 
 }  // namespace espalier::lsystem

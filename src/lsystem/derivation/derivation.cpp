@@ -34,14 +34,11 @@ Derivation::Derivation(const Grammar& grammar, const Limits& limits)
   const auto& names = grammar.names.globals;
   shared_.functions.set_max_modules(limits.modules);
   shared_.globals.assign(names.size(), 0);
-  if (const auto fraction = std::find(names.begin(), names.end(), "fraction");
-      fraction != names.end() && !is_constant(grammar, "fraction"))
-    fraction_global_ = static_cast<std::size_t>(fraction - names.begin());
+  if (!is_constant(grammar, "fraction")) fraction_global_ = names.find("fraction");
   run_lua_code();
   for (const Constant& constant : grammar.constants) {
     ConstantValue value;
-    value.global =
-        static_cast<std::size_t>(std::find(names.begin(), names.end(), constant.name) - names.begin());
+    value.global = *names.find(constant.name);
     value.parameter = constant.parameter;
     if (!constant.parameter)
       value.value.emplace(constant.value, std::span<const std::string>(), false, shared_);
@@ -68,12 +65,16 @@ void Derivation::run_lua_code() {
   for (const std::string& name : shared_.grammar.names.globals) shared_.lua.set_global(name, 0);
   name_surroundings(shared_.lua, shared_.grammar.names);
   add_curves(shared_.lua, shared_.grammar.names.curves, shared_.curves);
-  for (const LuaCode& code : shared_.grammar.lua) shared_.lua.run(code.text, code.label);
+  for (const LuaCode& code : shared_.grammar.lua) {
+    if (code.body) shared_.lua.check_expression(code.body->text, code.body->position);
+    shared_.lua.run(code.text, code.label);
+  }
   shared_.lua.seal(true);
 }
 
 void Derivation::set_limits(const Limits& limits) {
   limits_ = limits;
+  shared_.work.set_limit(limits.work);
   shared_.functions.set_max_modules(limits.modules);
   for (auto* rewriter : {&productions_, &interpretations_, &axiom_rewriter_}) (*rewriter)->set_limits(limits);
 }
@@ -84,10 +85,12 @@ double Derivation::evaluate(BlockExpression& expression) {
   try {
     const Column column = expression.compute({}, &key, 1, shared_);
     if (!BlockExpression::first_not_finite(column, 1)) return column[0];
+  } catch (const TooMuchWork&) {
+    throw;
   } catch (const InputError& error) {
-    throw_at(position, "'{}': {}", expression.source().text, error.what());
+    throw_at(position, "'{}': {}", shortened(expression.source().text), error.what());
   }
-  throw_at(position, "'{}' is no finite number, expected one", expression.source().text);
+  throw_at(position, "'{}' is no finite number, expected one", shortened(expression.source().text));
 }
 
 void Derivation::set_global(std::size_t global, double value) {
@@ -119,6 +122,7 @@ void Derivation::start(std::span<const double> parameters, Seed seed) {
   has_ended_ = false;
   modules_written_ = 0;
   shared_.lua.reset_instructions();
+  shared_.work.restart();
   run_lua_code();
   make_curves(parameters);
   set_global(shared_.globals.size() - 1, 0);
@@ -164,6 +168,7 @@ void Derivation::finish_step() {
   std::swap(string_, next_);
   std::swap(identities_, next_identities_);
   modules_written_ += string_.size();
+  shared_.work.add(static_cast<double>(string_.size()));
   cut_branches();
   fill_queries();
   if (shared_.grammar.uses_light) update_light();
@@ -240,23 +245,19 @@ const ModuleString& Derivation::interpreted(double fraction) {
 }
 
 VolumePtr Derivation::volume(const std::string& name) const {
-  const auto& names = shared_.grammar.names.volumes;
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
+  const NameList& names = shared_.grammar.names.volumes;
+  const auto found = names.find(name);
+  if (!found)
     throw_input_error("{}: got volume '{}', expected {}", shared_.grammar.name, name,
                       names.empty() ? "none: the L-system declares no volumes"
                                     : fmt::format("one of: {}", fmt::join(names, ", ")));
-  return shared_.surroundings.volumes[static_cast<std::size_t>(found - names.begin())];
+  return shared_.surroundings.volumes[*found];
 }
 
 Vec3 Derivation::towards_sun() const {
   if (!shared_.grammar.has_sun) return {0, 0, 1};
-  const auto& names = shared_.grammar.names.globals;
-  const auto of = [&](const char* name) {
-    return static_cast<float>(
-        shared_
-            .globals[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())]);
-  };
+  const NameList& names = shared_.grammar.names.globals;
+  const auto of = [&](const char* name) { return static_cast<float>(shared_.globals[*names.find(name)]); };
   return {of("sun_x"), of("sun_y"), of("sun_z")};
 }
 
@@ -264,14 +265,17 @@ Vec3 Derivation::towards_sun() const {
 void Derivation::update_light() {
   constexpr double kGap = 0.3;  // of a segment
   shading_plant_.clear();
-  build_plant(interpreted(), shared_.alphabet, settings_, shading_plant_);
+  build_plant(interpreted(), shared_.alphabet, settings_, shading_plant_, shared_.work);
   shared_.surroundings.set_light(shading_plant_, settings_.unit_m, towards_sun(), kGap * settings_.length,
                                  shared_.grammar.shades);
 }
 
 void Derivation::fill_queries() {
   if (!has_queries(shared_.alphabet)) return;
-  espalier::lsystem::fill_queries(interpreted(), string_, shared_.alphabet, settings_);
+  const ModuleString& drawn = interpreted();
+  shared_.work.add(2 * work_of::kModule * static_cast<double>(drawn.size()) +
+                   work_of::kSymbol * static_cast<double>(shared_.alphabet.size()));
+  espalier::lsystem::fill_queries(drawn, string_, shared_.alphabet, settings_);
 }
 
 }  // namespace espalier::lsystem

@@ -46,6 +46,10 @@ class Derivation {
   /// The string as it is drawn: after the interpretation rules, in which `fraction` (0 to below 1) is how
   /// much of the time to the next step has passed. Valid until the next call.
   const ModuleString& interpreted(double fraction = 0);
+  /// What the file's Lua code ran so far.
+  double lua_instructions() const { return shared_.lua.instructions(); }
+  /// Of this derivation so far, and its limit.
+  Work& work() { return shared_.work; }
   /// Modules written by all steps so far.
   std::size_t modules_written() const { return modules_written_; }
   /// Memory of the current string and the one before it.

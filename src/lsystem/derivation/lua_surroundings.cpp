@@ -63,14 +63,26 @@ int lua_skylight(lua_State* state) {
   return 1;
 }
 
+/// Exceptions become errors of Lua, through which they cannot pass.
+template <lua_CFunction kFunction>
+int guarded(lua_State* state) {
+  try {
+    return kFunction(state);
+  } catch (const InputError& error) {
+    lua_pushstring(state, error.what());
+  }
+  return lua_error(state);
+}
+
 }  // namespace
 
 void add_surroundings(LuaState& lua, const Surroundings& surroundings) {
-  constexpr std::array<std::pair<const char*, lua_CFunction>, 5> kFunctions{{{"inside", lua_inside},
-                                                                             {"distance", lua_distance},
-                                                                             {"value", lua_value},
-                                                                             {"light", lua_light},
-                                                                             {"skylight", lua_skylight}}};
+  constexpr std::array<std::pair<const char*, lua_CFunction>, 5> kFunctions{
+      {{"inside", guarded<lua_inside>},
+       {"distance", guarded<lua_distance>},
+       {"value", guarded<lua_value>},
+       {"light", guarded<lua_light>},
+       {"skylight", guarded<lua_skylight>}}};
   for (const auto& [name, function] : kFunctions) {
     lua_pushlightuserdata(lua.get(), const_cast<Surroundings*>(&surroundings));
     lua_pushcclosure(lua.get(), function, 1);

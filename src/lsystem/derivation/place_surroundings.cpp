@@ -60,8 +60,7 @@ VolumePtr SurroundingsMaker::make(VolumeEntry& entry, const Evaluate& evaluate) 
     return make_volume(
         entry.declaration->tree, [&](const VolumeTree::Number&) { return evaluate(entry.numbers[next++]); },
         [&](const std::string& name) {
-          const auto found = std::find(names.begin(), names.end(), name);
-          return shared_.surroundings.volumes.at(static_cast<std::size_t>(found - names.begin()));
+          return shared_.surroundings.volumes.at(names.find(name).value_or(names.size()));
         });
   } catch (const VolumeError& error) {
     throw_at(place_in(*entry.declaration, error.offset), "{}", error.what());

@@ -6,7 +6,10 @@ namespace espalier::lsystem {
 
 Rewriter::Rewriter(const std::vector<Production>& productions, RuleContext& shared, const Limits& limits,
                    RandomSites sites)
-    : shared_(shared), limits_(limits) {
+    : shared_(shared),
+      limits_(limits),
+      ignored_(shared.grammar.ignored.begin(), shared.grammar.ignored.end()),
+      considered_(shared.grammar.considered.begin(), shared.grammar.considered.end()) {
   for (const Production& production : productions) {
     const std::uint32_t before = shared.random_sites;
     if (sites == RandomSites::of_each_production) shared.random_sites = 1;
@@ -24,9 +27,9 @@ void Rewriter::prepare_groups(const std::vector<bool>& table_is_on) {
   for (const auto& rule : rules_) {
     const Production& production = rule->production();
     if (production.table >= 0 && !table_is_on[static_cast<std::size_t>(production.table)]) continue;
-    std::int16_t& group = group_of_[production.predecessor.symbol];
+    std::int32_t& group = group_of_[production.predecessor.symbol];
     if (group < 0) {
-      group = static_cast<std::int16_t>(groups_.size());
+      group = static_cast<std::int32_t>(groups_.size());
       groups_.emplace_back();
     }
     auto& members = groups_[static_cast<std::size_t>(group)];
@@ -36,15 +39,11 @@ void Rewriter::prepare_groups(const std::vector<bool>& table_is_on) {
 }
 
 void Rewriter::prepare_skipped() {
-  const Grammar& grammar = shared_.grammar;
-  const auto is_in = [](const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
+  const bool has_considered = shared_.grammar.has_considered;
   skipped_.assign(shared_.alphabet.size(), 0);
   for (std::size_t id = 0; id < skipped_.size(); ++id) {
     const std::string& name = shared_.alphabet[static_cast<SymbolId>(id)].name;
-    skipped_[id] =
-        is_in(grammar.ignored, name) || (grammar.has_considered && !is_in(grammar.considered, name));
+    skipped_[id] = ignored_.contains(name) || (has_considered && !considered_.contains(name));
   }
 }
 
@@ -54,8 +53,10 @@ bool Rewriter::draws() const {
 
 void Rewriter::rewrite(const ModuleString& string, RandomKey key, const std::vector<bool>& table_is_on,
                        ModuleString& result, const Lineage& lineage) {
+  shared_.work.add(work_of::kSymbol * static_cast<double>(shared_.alphabet.size() + rules_.size()));
   prepare_groups(table_is_on);
   if (needs_index_) {
+    shared_.work.add(work_of::kModule * static_cast<double>(string.size()));
     const SymbolId open = shared_.alphabet.intern("[", 0), close = shared_.alphabet.intern("]", 0);
     prepare_skipped();
     index_.build(string, shared_.alphabet, open, close, skipped_, shared_.grammar.follow_branches);
@@ -66,16 +67,13 @@ void Rewriter::rewrite(const ModuleString& string, RandomKey key, const std::vec
   const Rewriting rewriting{string, index_, key, lineage.keys};
   for (std::size_t begin = 0; begin < string.size(); begin += kBlockSize) {
     const std::size_t end = std::min(begin + kBlockSize, string.size());
+    shared_.work.add(work_of::kModule * static_cast<double>(end - begin + groups_.size()));
     collect(string, begin, end);
     for (Group& group : groups_)
       if (group.candidates.size() > 0) choose(group, rewriting);
     const std::size_t written = result.size();
     emit(string, begin, end, result);
     if (lineage.result) emit_identities(string, begin, end, result.symbols.data() + written, lineage);
-    if (result.size() > limits_.modules)
-      throw TooManyModules(
-          fmt::format("{}: the string has more than {} modules, expected fewer (--max-modules)",
-                      shared_.grammar.name, limits_.modules));
   }
   result.symbols.fit();
   result.values.fit();
@@ -90,7 +88,7 @@ void Rewriter::collect(const ModuleString& string, std::size_t begin, std::size_
   std::size_t offset = value_offset_;
   for (std::size_t i = begin; i < end; ++i) {
     const SymbolId symbol = string.symbols[i];
-    const std::int16_t group = symbol < group_of_.size() ? group_of_[symbol] : std::int16_t{-1};
+    const std::int32_t group = symbol < group_of_.size() ? group_of_[symbol] : -1;
     if (group >= 0) {
       Candidates& candidates = groups_[static_cast<std::size_t>(group)].candidates;
       candidates.module.push_back(static_cast<std::uint32_t>(i));
@@ -211,6 +209,12 @@ void Rewriter::emit(const ModuleString& string, std::size_t begin, std::size_t e
     value_count += choice.rule ? choice.rule->value_count(choice.slot) : arities[symbols[i]];
     value_offset_ += arities[symbols[i]];
   }
+  if (result.size() + symbol_count > limits_.modules)
+    throw TooManyModules(
+        fmt::format("{}: the string has more than {} modules, expected fewer (--max-modules)",
+                    shared_.grammar.name, limits_.modules));
+  shared_.work.add(work_of::kModule * static_cast<double>(symbol_count) +
+                   work_of::kValue * static_cast<double>(value_count));
   SymbolId* symbol_end = result.symbols.grow(symbol_count);
   double* value_end = result.values.grow(value_count);
   for (std::size_t i = begin; i < end; ++i) {
@@ -230,7 +234,10 @@ void Rewriter::emit(const ModuleString& string, std::size_t begin, std::size_t e
 void Rewriter::emit_identities(const ModuleString& string, std::size_t begin, std::size_t end,
                                const SymbolId* successors, const Lineage& lineage) {
   // Lua bodies make symbols while the string is rewritten.
-  if (by_name_.size() != shared_.alphabet.size()) by_name_ = symbols_by_name(shared_.alphabet);
+  if (by_name_.size() != shared_.alphabet.size()) {
+    shared_.work.add(work_of::kSymbol * static_cast<double>(shared_.alphabet.size()));
+    by_name_ = symbols_by_name(shared_.alphabet);
+  }
   for (std::size_t i = begin; i < end; ++i) {
     const Choice& choice = choices_[i - begin];
     const std::size_t count = choice.rule ? choice.rule->symbol_count(choice.slot) : 1;

@@ -3,6 +3,8 @@
 // [Herbaceous §2.4]. Modules are handled in blocks: first all rules on a block, then its part of the result.
 #pragma once
 #include <memory>
+#include <set>
+#include <string>
 #include <vector>
 
 #include <espalier/lsystem/derivation/rule.h>
@@ -69,12 +71,13 @@ class Rewriter {
   Limits limits_;
   std::vector<std::unique_ptr<Rule>> rules_;
   std::vector<Group> groups_;
-  std::vector<std::int16_t> group_of_;  ///< by symbol, -1 for none
+  std::vector<std::int32_t> group_of_;  ///< by symbol, -1 for none
   bool needs_index_ = false;
   StringIndex index_;
   std::vector<std::uint8_t> skipped_;  ///< by symbol
-  std::vector<SymbolId> by_name_;      ///< by symbol: the first of its name, where identities are kept
-  std::size_t value_offset_ = 0;       ///< of the next block
+  std::set<std::string, std::less<>> ignored_, considered_;
+  std::vector<SymbolId> by_name_;  ///< by symbol: the first of its name, where identities are kept
+  std::size_t value_offset_ = 0;   ///< of the next block
 
   // Of the current block
   std::size_t block_begin_ = 0;

@@ -8,6 +8,9 @@ namespace espalier::lsystem {
 
 namespace {
 
+/// Each holds kBlockSize numbers: 240 MB.
+constexpr std::size_t kMostColumns = 60'000;
+
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
 void append_parameters(std::vector<std::string>& names, std::span<const PatternModule> modules) {
@@ -37,23 +40,35 @@ Rule::Rule(const Production& production, RuleContext& shared) : production_(&pro
   column_data_.resize(parameters_.size());
   needs_keys_ = body_ || (condition_ && condition_->draws()) || (probability_ && probability_->draws()) ||
                 std::any_of(arguments_.begin(), arguments_.end(), [](const auto& a) { return a.draws(); });
+  count_columns(shared);
+}
+
+/// Rules keep their columns from block to block.
+void Rule::count_columns(RuleContext& shared) const {
+  shared.columns += parameters_.size();
+  for (const auto* expression : {&condition_, &probability_})
+    if (*expression) shared.columns += (*expression)->columns();
+  for (const BlockExpression& argument : arguments_) shared.columns += argument.columns();
+  if (shared.columns > kMostColumns)
+    throw_at(production_->position,
+             "got productions of more than {} parameters and operations, expected fewer", kMostColumns);
 }
 
 /// Keeps the candidates whose contexts fit, with the places of the modules there.
-void Rule::match_contexts(const Candidates& candidates, const StringIndex& index) {
+void Rule::match_contexts(const Candidates& candidates, const StringIndex& index, RuleContext& shared) {
   const std::size_t left = production_->left.size(), contexts = left + production_->right.size();
   hits_.resize(candidates.size());
   if (contexts == 0) {
     for (std::size_t i = 0; i < hits_.size(); ++i) hits_[i] = static_cast<std::uint16_t>(i);
     return;
   }
-  matched_.resize(candidates.size() * contexts);
-  std::uint32_t* matched = matched_.data();
+  shared.matched.resize(candidates.size() * contexts);
+  std::uint32_t* matched = shared.matched.data();
   std::size_t hits = 0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const std::size_t module = candidates.module[i];
-    if (!index.match_left(module, production_->left, matched) ||
-        !index.match_right(module, production_->right, matched + left))
+    if (!index.match_left(module, production_->left, matched, shared.work) ||
+        !index.match_right(module, production_->right, matched + left, shared.work))
       continue;
     hits_[hits++] = static_cast<std::uint16_t>(i);
     matched += contexts;
@@ -62,7 +77,7 @@ void Rule::match_contexts(const Candidates& candidates, const StringIndex& index
 }
 
 /// Fills the columns for the hits.
-void Rule::gather(const Candidates& candidates, const Rewriting& rewriting) {
+void Rule::gather(const Candidates& candidates, const Rewriting& rewriting, const RuleContext& shared) {
   const std::size_t count = hits_.size();
   const double* values = rewriting.string.values.data();
   for (auto& column : column_data_)
@@ -81,7 +96,7 @@ void Rule::gather(const Candidates& candidates, const Rewriting& rewriting) {
                                        : production_->right[k - production_->left.size()];
     for (std::size_t p = 0; p < pattern.parameters.size(); ++p, ++c)
       for (std::size_t slot = 0; slot < count; ++slot)
-        column_data_[c][slot] = values[rewriting.index.value_offset(matched_[slot * contexts + k]) + p];
+        column_data_[c][slot] = values[rewriting.index.value_offset(shared.matched[slot * contexts + k]) + p];
   }
   columns_.clear();
   for (const auto& column : column_data_) columns_.push_back({column.data(), 1});
@@ -89,9 +104,11 @@ void Rule::gather(const Candidates& candidates, const Rewriting& rewriting) {
 
 void Rule::match(const Candidates& candidates, const Rewriting& rewriting, RuleContext& shared) {
   bodies_.clear();
-  match_contexts(candidates, rewriting.index);
+  shared.work.add(work_of::kBlock + work_of::kCandidate * static_cast<double>(candidates.size()));
+  match_contexts(candidates, rewriting.index, shared);
   if (hits_.empty()) return;
-  gather(candidates, rewriting);
+  shared.work.add(work_of::kValue * static_cast<double>(hits_.size() * parameters_.size()));
+  gather(candidates, rewriting, shared);
   make_keys(candidates, rewriting);
   if (condition_) apply_condition(candidates, rewriting, shared);
   if (!probability_ || hits_.empty()) return;
@@ -145,6 +162,7 @@ void Rule::compute_successor(const Candidates& candidates, const Rewriting& rewr
 void Rule::run_bodies(const Candidates& candidates, const Rewriting& rewriting, RuleContext& shared) {
   produced_.clear();
   for (std::size_t slot = 0; slot < hits_.size(); ++slot) {
+    shared.work.add(work_of::kLuaCall);
     try {
       const bool produced = shared.functions.run_body(*body_, columns_, slot, keys_[slot], produced_);
       bodies_.push_back({produced, static_cast<std::uint32_t>(produced_.symbols.size()),
@@ -158,11 +176,13 @@ void Rule::run_bodies(const Candidates& candidates, const Rewriting& rewriting, 
 Column Rule::compute(BlockExpression& expression, const char* what, const Candidates& candidates,
                      const Rewriting& rewriting, RuleContext& shared) {
   const auto text = [&](const std::string& problem) {
-    return fmt::format("{} '{}' {}", what, expression.source().text, problem);
+    return fmt::format("{} '{}' {}", what, shortened(expression.source().text), problem);
   };
   Column column;
   try {
     column = expression.compute(columns_, needs_keys_ ? keys_.data() : nullptr, hits_.size(), shared);
+  } catch (const TooMuchWork&) {
+    throw;
   } catch (const InputError& all) {
     // Which module it was: one by one.
     for (std::size_t slot = 0; slot < hits_.size(); ++slot) try {

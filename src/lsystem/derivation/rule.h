@@ -12,6 +12,7 @@
 #include <espalier/lsystem/derivation/lua_curves.h>
 #include <espalier/lsystem/derivation/lua_functions.h>
 #include <espalier/lsystem/derivation/lua_surroundings.h>
+#include <espalier/lsystem/strings/work.h>
 
 namespace espalier::lsystem {
 
@@ -21,13 +22,23 @@ struct RuleContext {
   SymbolTable alphabet;
   LuaState lua;
   LuaFunctions functions;
+  Work work;
   Surroundings surroundings;
   std::vector<double> globals;     ///< values of Names::globals
   std::vector<Curve> curves;       ///< of Names::curves
   std::uint32_t random_sites = 1;  ///< 0 is the choice between stochastic productions
+  std::size_t expanded_bytes = 0;  ///< of let functions in all expressions
+  std::size_t columns = 0;         ///< of all rules
+  std::size_t expressions = 0;
+  std::vector<std::uint32_t> matched;  ///< of the rule that looks at contexts now: a row a hit
 
   RuleContext(const Grammar& file, const Limits& limits)
-      : grammar(file), alphabet(file.alphabet), lua(limits), functions(lua, file, alphabet) {
+      : grammar(file),
+        alphabet(file.alphabet),
+        lua(limits),
+        functions(lua, file, alphabet),
+        work(file.name, limits.work) {
+    surroundings.set_work(work);
     curves.resize(file.functions.size());
     add_surroundings(lua, surroundings);
   }
@@ -47,6 +58,8 @@ class BlockExpression {
   const Expression& source() const { return *source_; }
   /// Whether it may call random().
   bool draws() const { return !program_ || program_->draws; }
+  /// Columns of a block that it takes.
+  std::size_t columns() const { return program_ ? program_->temporaries : 1; }
   /// Which value of the last computed column is no finite number, if any.
   static std::optional<std::size_t> first_not_finite(const Column& column, std::size_t count);
 
@@ -112,8 +125,9 @@ class Rule {
     std::uint32_t symbols_end = 0, values_end = 0;  ///< in produced_
   };
 
-  void gather(const Candidates& candidates, const Rewriting& rewriting);
-  void match_contexts(const Candidates& candidates, const StringIndex& index);
+  void gather(const Candidates& candidates, const Rewriting& rewriting, const RuleContext& shared);
+  void count_columns(RuleContext& shared) const;
+  void match_contexts(const Candidates& candidates, const StringIndex& index, RuleContext& shared);
   void apply_condition(const Candidates& candidates, const Rewriting& rewriting, RuleContext& shared);
   void compress(std::span<const std::uint8_t> keep_by_slot);
   void make_keys(const Candidates& candidates, const Rewriting& rewriting);
@@ -137,7 +151,6 @@ class Rule {
 
   // Of the current block
   std::vector<std::uint16_t> hits_;
-  std::vector<std::uint32_t> matched_;  ///< places of context modules, a row a hit
   std::vector<std::vector<double>> column_data_;
   std::vector<Column> columns_, results_;
   std::vector<RandomKey> keys_;

@@ -6,12 +6,6 @@
 
 namespace espalier::lsystem {
 
-namespace {
-
-constexpr double kMostSteps = 5e7;
-
-}  // namespace
-
 Frames::Node Frames::add_node(Node parent, Vec3 point_m) {
   parents_.push_back(parent);
   points_m_.push_back(point_m);
@@ -22,9 +16,7 @@ std::vector<Frames::Node> Frames::way_to_root(Node node) {
   std::vector<Node> way;
   for (; node >= 0; node = parents_[static_cast<std::size_t>(node)]) {
     way.push_back(node);
-    if (++steps_ > kMostSteps)
-      throw_input_error("got edges between nodes so far apart that their polygons take more than {} steps",
-                        kMostSteps);
+    work_.add(work_of::kFrameStep);
   }
   return way;
 }
@@ -36,6 +28,7 @@ Frames::Corner Frames::nearest_connection(const std::vector<Node>& first,
   Corner best{first.size() - 1, second.size() - 1};
   std::size_t shortest = std::numeric_limits<std::size_t>::max();
   const auto consider = [&](std::size_t i, Node other) {
+    work_.add(work_of::kFrameStep);
     const auto found = place.find(other);
     if (found == place.end() || i + found->second >= shortest) return;
     shortest = i + found->second;

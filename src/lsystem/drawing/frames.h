@@ -8,11 +8,14 @@
 #include <vector>
 
 #include <espalier/core/vec3.h>
+#include <espalier/lsystem/strings/work.h>
 
 namespace espalier::lsystem {
 
 class Frames {
  public:
+  explicit Frames(Work& work) : work_(work) {}
+
   using Node = std::int32_t;  ///< -1: none
 
   /// A node at the end of a segment or a move from `parent`.
@@ -20,7 +23,7 @@ class Frames {
   /// ?(label): the next edge of this label starts here.
   void open_edge(int label, Node node) { open_[label] = node; }
   /// #(label): inserts the edge to `node`; the outline of its polygon, which is empty for an edge without
-  /// length. Throws InputError where no edge is open, or where polygons take more than 50 million steps.
+  /// length. Throws InputError where no edge is open.
   std::vector<Vec3> close_edge(int label, Node node);
 
  private:
@@ -36,7 +39,7 @@ class Frames {
   std::vector<Vec3> points_m_;
   std::map<int, Node> open_;
   std::multimap<Node, Node> edges_;  ///< both ways
-  double steps_ = 0;
+  Work& work_;
 };
 
 }  // namespace espalier::lsystem

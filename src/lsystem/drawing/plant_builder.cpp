@@ -40,16 +40,19 @@ void check_places(const Plant& plant) {
 /// Collects what the turtle draws.
 class Builder : public SilentVisitor {
  public:
-  Builder(const Settings& settings, bool has_frames, Plant& plant)
+  Builder(const Settings& settings, bool has_frames, Plant& plant, Work& work)
       : unit_(static_cast<float>(settings.unit_m)),
         settings_(settings),
         plant_(plant),
+        work_(work),
+        frames_(work),
         has_frames_(has_frames) {
     if (has_frames) axis_.node = frames_.add_node(-1, {0, 0, 0});
   }
 
   void begin_segment(const Turtle& turtle, const Step& step) {
     if (!polygons_.empty()) return;
+    work_.add(work_of::kKnot);
     if (axis_.stem < 0) axis_.holder = axis_.stem = stems_.add_stem(axis_.parent);
     stems_.start_segment(axis_.stem, point(turtle.position), radius(turtle), turtle.color);
     if (settings_.leafy_segments && step.arity >= 3) add_leaves(turtle, step);
@@ -208,6 +211,7 @@ class Builder : public SilentVisitor {
   void add_sphere(const Turtle& turtle, const Step& step) {
     constexpr int kSegments = 8;
     const double size = step.value_or(0, 2 * turtle.width) / 2;
+    work_.add(work_of::kKnot * (kSegments + 1));
     const std::int32_t stem = stems_.add_stem(axis_.stem >= 0 ? axis_.stem : axis_.parent);
     for (int i = 0; i <= kSegments; ++i) {
       const double angle_rad = std::numbers::pi * i / kSegments;
@@ -226,7 +230,7 @@ class Builder : public SilentVisitor {
 
   void fill(const std::vector<Vec3>& outline, PartColor color, std::uint32_t organ) {
     std::vector<Triangle> triangles;
-    triangulate(outline, triangles);
+    triangulate(outline, triangles, work_);
     for (const Triangle& triangle : triangles) add_triangle(triangle, color, organ, true);
   }
 
@@ -260,7 +264,9 @@ class Builder : public SilentVisitor {
     check_count();
     triangles_.push_back({triangle, color, organ, is_plain});
   }
-  void check_count(std::size_t more_leaves = 1, std::size_t more_copied_knots = 0) const {
+  void check_count(std::size_t more_leaves = 1, std::size_t more_copied_knots = 0) {
+    work_.add(work_of::kLeaf * static_cast<double>(more_leaves) +
+              work_of::kKnot * static_cast<double>(more_copied_knots));
     if (triangles_.size() + plant_.leaves.size() + more_leaves > kMostLeaves)
       throw TooManyModules(
           fmt::format("got more than {} leaves and triangles of surfaces, expected fewer", kMostLeaves));
@@ -308,6 +314,7 @@ class Builder : public SilentVisitor {
   const float unit_;
   const Settings& settings_;
   Plant& plant_;
+  Work& work_;
   StemSplines stems_;
   Axis axis_;
   std::vector<Axis> stack_;
@@ -328,10 +335,12 @@ bool has_frames(const SymbolTable& alphabet) {
 }  // namespace
 
 void build_plant(const ModuleString& string, const SymbolTable& alphabet, const Settings& settings,
-                 Plant& plant, PlantJoints* joints) {
+                 Plant& plant, Work& work, PlantJoints* joints) {
   plant.clear();
+  work.add(2 * work_of::kModule * static_cast<double>(string.size()) +
+           work_of::kSymbol * static_cast<double>(alphabet.size()));
   try {
-    Builder builder(settings, has_frames(alphabet), plant);
+    Builder builder(settings, has_frames(alphabet), plant, work);
     TurtleWalk(settings, builder).run(string, alphabet);
     builder.finish();
     if (joints) *joints = std::move(builder.joints());
@@ -341,6 +350,12 @@ void build_plant(const ModuleString& string, const SymbolTable& alphabet, const 
     if (!settings.appearance) throw;
     throw_input_error("{}: {}", settings.appearance->file, error.what());
   }
+}
+
+void build_plant(const ModuleString& string, const SymbolTable& alphabet, const Settings& settings,
+                 Plant& plant, PlantJoints* joints) {
+  Work work(settings.appearance ? settings.appearance->file : "L-system");
+  build_plant(string, alphabet, settings, plant, work, joints);
 }
 
 }  // namespace espalier::lsystem

@@ -7,13 +7,17 @@
 
 #include <espalier/lsystem/notation/settings.h>
 #include <espalier/lsystem/strings/module_string.h>
+#include <espalier/lsystem/strings/work.h>
 #include <espalier/plant/joints.h>
 
 namespace espalier::lsystem {
 
 /// Draws a string (after interpretation) into `plant`, whose memory is reused; `joints`, unless null, gets
 /// where its parts are fixed.
-/// Throws InputError for polygons that are not closed or commands with wrong parameters.
+/// Throws InputError for polygons that are not closed or commands with wrong parameters, TooMuchWork.
+void build_plant(const ModuleString& string, const SymbolTable& alphabet, const Settings& settings,
+                 Plant& plant, Work& work, PlantJoints* joints = nullptr);
+/// The same with work of its own, as much as Limits says.
 void build_plant(const ModuleString& string, const SymbolTable& alphabet, const Settings& settings,
                  Plant& plant, PlantJoints* joints = nullptr);
 

@@ -32,12 +32,13 @@ struct Value {
 using Scope = std::map<std::string, Value, std::less<>>;
 
 constexpr std::size_t kMaxTemporaries = 250;
+constexpr std::size_t kMostExpandedBytes = 20'000'000, kBytesOfCall = 100;
 constexpr int kMaxDepth = 60;
 
 class Compiler {
  public:
-  Compiler(const Names& names, std::uint32_t& random_sites, Program& program)
-      : names_(names), random_sites_(random_sites), program_(program) {}
+  Compiler(const Names& names, std::uint32_t& random_sites, std::size_t& expanded_bytes, Program& program)
+      : names_(names), random_sites_(random_sites), expanded_bytes_(expanded_bytes), program_(program) {}
 
   Value compile(std::string_view text, const Scope& scope) {
     if (++depth_ > kMaxDepth) throw NotArithmetic{};
@@ -96,7 +97,7 @@ class Compiler {
   }
   Operand literal(double value) {
     program_.literals.push_back(value);
-    return {Operand::Kind::literal, static_cast<std::uint16_t>(program_.literals.size() - 1)};
+    return {Operand::Kind::literal, static_cast<std::uint32_t>(program_.literals.size() - 1)};
   }
   Operand emit(Op op, Operand a, Operand b, Operand c) {
     if (program_.temporaries >= kMaxTemporaries) throw NotArithmetic{};
@@ -232,16 +233,12 @@ class Compiler {
     if (name.empty()) throw NotArithmetic{};
     if (const auto found = scope_->find(name); found != scope_->end()) return found->second;
     if (names_.from_lua.contains(name)) throw NotArithmetic{};
-    const auto global = std::find(names_.globals.begin(), names_.globals.end(), name);
-    if (global != names_.globals.end())
-      return {Type::number,
-              {Operand::Kind::global, static_cast<std::uint16_t>(global - names_.globals.begin())}};
+    if (const auto global = names_.globals.find(name))
+      return {Type::number, {Operand::Kind::global, static_cast<std::uint32_t>(*global)}};
     if (name == "true" || name == "false") return {Type::condition, literal(name == "true" ? 1 : 0)};
-    for (const LetFunction& function : names_.functions)
-      if (function.name == name) return call(function);
-    const auto curve = std::find(names_.curves.begin(), names_.curves.end(), name);
-    if (curve != names_.curves.end())
-      return on_curve(name, static_cast<std::uint16_t>(curve - names_.curves.begin()));
+    if (const auto let = names_.functions.find(name); let != names_.functions.end()) return call(let->second);
+    if (const auto curve = names_.curves.find(name))
+      return on_curve(name, static_cast<std::uint16_t>(*curve));
     if (name == "math") return in_math();
     return built_in(name);
   }
@@ -268,6 +265,10 @@ class Compiler {
     if (values.size() != function.parameters.size())
       throw_input_error("{}: got {} arguments, expected {}", function.name, values.size(),
                         function.parameters.size());
+    expanded_bytes_ += kBytesOfCall + function.body.size();
+    if (expanded_bytes_ > kMostExpandedBytes)
+      throw_input_error("{}: got more than {} bytes of functions in functions, expected fewer", function.name,
+                        kMostExpandedBytes);
     Scope scope;
     for (std::size_t i = 0; i < values.size(); ++i) scope[function.parameters[i]] = values[i];
     return compile(function.body, scope);
@@ -282,12 +283,12 @@ class Compiler {
   }
 
   /// inside(clip, x, y, z): the first argument is the name of a volume or a field.
-  std::uint16_t object(const std::vector<std::string>& names) {
+  std::uint16_t object(const NameList& names) {
     expect("(");
-    const auto found = std::find(names.begin(), names.end(), word());
-    if (found == names.end()) throw NotArithmetic{};
+    const auto found = names.find(word());
+    if (!found) throw NotArithmetic{};
     expect(",");
-    return static_cast<std::uint16_t>(found - names.begin());
+    return static_cast<std::uint16_t>(*found);
   }
 
   Value at_point(Op op, std::uint16_t object, std::size_t coordinates, Type type) {
@@ -344,6 +345,7 @@ class Compiler {
 
   const Names& names_;
   std::uint32_t& random_sites_;
+  std::size_t& expanded_bytes_;
   Program& program_;
   std::string_view text_;
   std::size_t at_ = 0;
@@ -354,13 +356,14 @@ class Compiler {
 }  // namespace
 
 std::optional<Program> compile_program(std::string_view expression, std::span<const std::string> columns,
-                                       const Names& names, std::uint32_t& random_sites) {
+                                       const Names& names, std::uint32_t& random_sites,
+                                       std::size_t& expanded_bytes) {
   Program program;
   Scope scope;
   for (std::size_t i = 0; i < columns.size(); ++i)
-    scope[columns[i]] = {Type::number, {Operand::Kind::column, static_cast<std::uint16_t>(i)}};
+    scope[columns[i]] = {Type::number, {Operand::Kind::column, static_cast<std::uint32_t>(i)}};
   try {
-    const Value value = Compiler(names, random_sites, program).compile(expression, scope);
+    const Value value = Compiler(names, random_sites, expanded_bytes, program).compile(expression, scope);
     if (value.type == Type::guarded) return std::nullopt;
     program.result = value.operand;
     program.is_condition = value.type == Type::condition;

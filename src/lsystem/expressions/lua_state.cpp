@@ -1,57 +1,23 @@
+#include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdlib>
 #include <lua.hpp>
+#include <utility>
 
 #include <espalier/lsystem/expressions/lua_state.h>
+#include <espalier/lsystem/expressions/lua_tables.h>
+#include <espalier/lsystem/expressions/lua_usage.h>
 
 namespace espalier::lsystem {
-
-struct LuaState::Usage {
-  Limits limits;
-  std::size_t bytes = 0;
-  double instructions = 0;
-  bool sealed = false;
-};
 
 namespace {
 
 constexpr int kInstructionsPerCheck = 1000;
 
-/// An allocator that refuses what goes beyond the limit; Lua then raises "not enough memory".
-template <typename Usage>
-void* allocate(void* data, void* block, std::size_t old_size, std::size_t new_size) {
-  auto* usage = static_cast<Usage*>(data);
-  if (new_size == 0) {
-    usage->bytes -= old_size;
-    std::free(block);
-    return nullptr;
-  }
-  const std::size_t bytes = usage->bytes - old_size + new_size;
-  if (new_size > old_size && bytes > usage->limits.lua_memory_bytes) return nullptr;
-  void* moved = std::realloc(block, new_size);
-  if (moved) usage->bytes = bytes;
-  return moved;
-}
-
-template <typename Usage>
-void count_instructions(lua_State* state, lua_Debug* where) {
-  void* data = nullptr;
-  lua_getallocf(state, &data);
-  auto* usage = static_cast<Usage*>(data);
-  usage->instructions += kInstructionsPerCheck;
-  if (usage->instructions <= usage->limits.lua_instructions) return;
-  lua_getinfo(state, "Sl", where);
-  luaL_error(state, "%s:%d: Lua ran for more than %d instructions, expected it to end sooner",
-             where->short_src, where->currentline, static_cast<int>(usage->limits.lua_instructions));
-}
+void count_instructions(lua_State* state, lua_Debug*) { charge_instructions(state, kInstructionsPerCheck); }
 
 /// Assigning to a global variable that is not there.
-template <typename Usage>
 int assign_new_global(lua_State* state) {
-  void* data = nullptr;
-  lua_getallocf(state, &data);
-  if (static_cast<Usage*>(data)->sealed)
+  if (usage_of(state).sealed)
     return luaL_error(state,
                       "got the new global variable '%s', expected 'local', or a first value in the lua: code",
                       lua_tostring(state, 2));
@@ -94,6 +60,11 @@ int open_libraries(lua_State* state) {
     lua_pushnil(state);
     lua_setfield(state, -2, name);
   }
+  replace_table_functions(state);
+  lua_pushliteral(state, "makes the buffer of strings, ");
+  lua_pushliteral(state, "whose size is watched from now on");
+  lua_concat(state, 2);
+  lua_pop(state, 1);
   luaJIT_setmode(state, 0, LUAJIT_MODE_ENGINE | LUAJIT_MODE_OFF);
   return 0;
 }
@@ -110,29 +81,46 @@ std::string take_message(lua_State* state) {
 
 }  // namespace
 
-LuaState::LuaState(const Limits& limits) : usage_(std::make_unique<Usage>(Usage{limits})) {
-  state_ = lua_newstate(allocate<Usage>, usage_.get());
+LuaState::LuaState(const Limits& limits) : usage_(std::make_unique<LuaUsage>(LuaUsage{limits})) {
+  state_ = lua_newstate(allocate_lua, usage_.get());
   if (!state_) throw InternalError("LuaJIT gave no state");
   if (lua_cpcall(
           state_, [](lua_State* state) { return open_libraries(state); }, nullptr) != 0)
     throw InternalError("LuaJIT: " + take_message(state_));
   lua_createtable(state_, 0, 1);
-  lua_pushcfunction(state_, assign_new_global<Usage>);
+  lua_pushcfunction(state_, assign_new_global);
   lua_setfield(state_, -2, "__newindex");
   lua_setmetatable(state_, LUA_GLOBALSINDEX);
-  lua_sethook(state_, count_instructions<Usage>, LUA_MASKCOUNT, kInstructionsPerCheck);
+  lua_sethook(state_, count_instructions, LUA_MASKCOUNT, kInstructionsPerCheck);
 }
 
 LuaState::~LuaState() { lua_close(state_); }
 
 void LuaState::call(int arguments, int results) {
-  if (lua_pcall(state_, arguments, results, 0) != 0) throw InputError(take_message(state_));
+  const bool outer = std::exchange(usage_->is_running, true);
+  const int status = lua_pcall(state_, arguments, results, 0);
+  usage_->is_running = outer;
+  usage_->is_ending = false;
+  if (status == 0) return;
+  const std::string message = take_message(state_);
+  if (status == LUA_ERRMEM && usage_->is_over())
+    throw_input_error("Lua ran for more than {} instructions, expected it to end sooner",
+                      usage_->limits.lua_instructions);
+  throw InputError(message);
+}
+
+/// Compiles the code to a function on the stack.
+void LuaState::load(const std::string& code, const std::string& label) {
+  usage_->longest_literal = std::max(usage_->longest_literal, longest_literal(code));
+  const std::string name = "=" + label;
+  usage_->is_loading = true;
+  const int status = luaL_loadbufferx(state_, code.data(), code.size(), name.c_str(), "t");
+  usage_->is_loading = false;
+  if (status != 0) throw InputError(take_message(state_));
 }
 
 void LuaState::run(const std::string& code, const std::string& label) {
-  const std::string name = "=" + label;
-  if (luaL_loadbufferx(state_, code.data(), code.size(), name.c_str(), "t") != 0)
-    throw InputError(take_message(state_));
+  load(code, label);
   call_as(label, 0);
 }
 
@@ -148,31 +136,25 @@ void LuaState::call_as(const std::string& label, int arguments) {
 }
 
 LuaState::Function LuaState::make_function(const std::string& code, const std::string& label) {
-  const std::string name = "=" + label;
-  if (luaL_loadbufferx(state_, code.data(), code.size(), name.c_str(), "t") != 0)
-    throw InputError(take_message(state_));
+  load(code, label);
   call(0, 1);
   return luaL_ref(state_, LUA_REGISTRYINDEX);
 }
 
 void LuaState::check_code(const std::string& code, const std::string& label) {
-  const std::string name = "=" + label;
-  const int status = luaL_loadbufferx(state_, code.data(), code.size(), name.c_str(), "t");
-  if (status != 0) throw InputError(take_message(state_));
+  load(code, label);
   lua_pop(state_, 1);
 }
 
 void LuaState::check_expression(const std::string& expression, const Position& position) {
-  // The line break ends a comment, so that it cannot hide the bracket.
-  const std::string code = "return (" + expression + "\n)";
-  const int status = luaL_loadbufferx(state_, code.data(), code.size(), "=expression", "t");
-  if (status == 0) {
-    lua_pop(state_, 1);
-    return;
+  try {
+    // The line break ends a comment, so that it cannot hide the bracket.
+    check_code("return (" + expression + "\n)", "expression");
+  } catch (const InputError& error) {
+    const std::string_view message = error.what();
+    throw_at(position, "'{}': {}, expected a Lua expression", shortened(expression),
+             message.substr(message.find(": ") + 2));
   }
-  std::string message = take_message(state_);
-  message = message.substr(message.find(": ") + 2);
-  throw_at(position, "'{}': {}, expected a Lua expression", expression, message);
 }
 
 void LuaState::set_global(const std::string& name, double value) {
@@ -199,6 +181,18 @@ void LuaState::call_hook(const std::string& name, std::span<const double> argume
 
 void LuaState::seal(bool sealed) { usage_->sealed = sealed; }
 
-void LuaState::reset_instructions() { usage_->instructions = 0; }
+double LuaState::instructions() const { return usage_->instructions; }
+
+/// The buffer of strings halves with each collection of garbage: a derivation does not pay for the strings of
+/// the one before.
+void LuaState::reset_instructions() {
+  constexpr std::size_t kSmallBuffer = 64;
+  constexpr int kMostHalvings = 20;
+  for (int i = 0; i < kMostHalvings && usage_->buffer_bytes > kSmallBuffer; ++i)
+    lua_gc(state_, LUA_GCCOLLECT, 0);
+  usage_->instructions = 0;
+  usage_->longest_buffer = usage_->buffer_bytes;
+  usage_->largest_block = 0;
+}
 
 }  // namespace espalier::lsystem

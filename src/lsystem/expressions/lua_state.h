@@ -1,7 +1,8 @@
 // Lua for the code of L-system files, shut in: mathematics, tables and a few pure functions, but no io, os,
 // package, debug, ffi, coroutines, strings' methods, loading of code or catching of errors. Instructions and
-// memory are limited. LuaJIT's compiler is off: compiled loops cannot be interrupted, so that
-// `while true do end` would never end; what must be fast is a Program (program.h).
+// memory are limited, and what takes longer counts for more instructions (lua_usage.h). LuaJIT's compiler is
+// off: compiled loops cannot be interrupted, so that `while true do end` would never end; what must be fast
+// is a Program (program.h).
 #pragma once
 #include <memory>
 #include <span>
@@ -14,6 +15,8 @@
 struct lua_State;
 
 namespace espalier::lsystem {
+
+struct LuaUsage;  // lua_usage.h
 
 class LuaState {
  public:
@@ -43,6 +46,7 @@ class LuaState {
   void call(int arguments, int results);
   /// While sealed, code cannot make new global variables: what it changes is then what run() makes anew.
   void seal(bool sealed);
+  double instructions() const;
   /// Starts counting instructions anew.
   void reset_instructions();
 
@@ -50,9 +54,9 @@ class LuaState {
 
  private:
   void call_as(const std::string& label, int arguments);
+  void load(const std::string& code, const std::string& label);
 
-  struct Usage;
-  std::unique_ptr<Usage> usage_;
+  std::unique_ptr<LuaUsage> usage_;
   lua_State* state_ = nullptr;
 };
 

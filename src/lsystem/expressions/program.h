@@ -5,6 +5,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -14,6 +15,7 @@
 
 #include <espalier/core/curves/curve.h>
 #include <espalier/core/random.h>
+#include <espalier/lsystem/expressions/name_list.h>
 
 namespace espalier::lsystem {
 
@@ -61,7 +63,7 @@ enum class Op : std::uint8_t {
 
 struct Operand {
   enum class Kind : std::uint8_t { column, global, literal, temporary } kind = Kind::literal;
-  std::uint16_t index = 0;
+  std::uint32_t index = 0;
 };
 
 struct Instruction {
@@ -89,17 +91,20 @@ struct LetFunction {
 
 /// What names mean in the expressions of a file.
 struct Names {
-  std::vector<std::string> globals;  ///< constants and parameters in order, then "fraction", "step"
-  std::vector<LetFunction> functions;
-  std::vector<std::string> volumes, fields;     ///< in order
-  std::vector<std::string> curves;              ///< functions that are given by numbers, in order
+  NameList globals;  ///< constants and parameters in order, then "fraction", "step"
+  std::map<std::string, LetFunction, std::less<>> functions;
+  NameList volumes, fields;                     ///< in order
+  NameList curves;                              ///< functions that are given by numbers, in order
   std::set<std::string, std::less<>> from_lua;  ///< given by the file's Lua code: not plain arithmetic
 };
 
 /// The program of an expression whose names are `columns` (parameters of modules), globals and functions;
 /// nullopt where it is not plain arithmetic, or does not parse. `random_sites` numbers the calls of random().
+/// Bodies of let functions are read anew at each call, and may call others: `expanded_bytes` counts them over
+/// all expressions of a file. Throws InputError where there are more than 20 million.
 std::optional<Program> compile_program(std::string_view expression, std::span<const std::string> columns,
-                                       const Names& names, std::uint32_t& random_sites);
+                                       const Names& names, std::uint32_t& random_sites,
+                                       std::size_t& expanded_bytes);
 
 /// Values at a stride of 1, or one value for all at a stride of 0.
 struct Column {

@@ -11,8 +11,8 @@ namespace {
 class Runner {
  public:
   Runner(const Program& program, const ProgramInputs& inputs, std::vector<double>& scratch)
-      : program_(program), inputs_(inputs), scratch_(scratch) {
-    scratch_.resize(program.temporaries * kBlockSize);
+      : program_(program), inputs_(inputs), stride_(inputs.count <= 1 ? 1 : kBlockSize), scratch_(scratch) {
+    if (scratch_.size() < program.temporaries * stride_) scratch_.resize(program.temporaries * stride_);
   }
 
   Column column(Operand operand) const {
@@ -24,7 +24,7 @@ class Runner {
       case Operand::Kind::literal:
         return {program_.literals.data() + operand.index, 0};
       case Operand::Kind::temporary:
-        return {scratch_.data() + operand.index * kBlockSize, strides_[operand.index]};
+        return {scratch_.data() + operand.index * stride_, strides_[operand.index]};
     }
     return {};
   }
@@ -35,7 +35,7 @@ class Runner {
         inputs_.surroundings,  inputs_.curves,        instruction.object};
     const bool varies = in.a.stride + in.b.stride + in.c.stride > 0 || instruction.op == Op::random;
     in.count = varies ? inputs_.count : 1;
-    in.target = scratch_.data() + instruction.target * kBlockSize;
+    in.target = scratch_.data() + instruction.target * stride_;
     strides_[instruction.target] = varies ? 1 : 0;
     kOperations[static_cast<std::size_t>(instruction.op)].run(in);
   }
@@ -43,6 +43,8 @@ class Runner {
  private:
   const Program& program_;
   const ProgramInputs& inputs_;
+  const std::size_t
+      stride_;  ///< from temporary to temporary: constants of a file are many, and one value each
   std::vector<double>& scratch_;
   std::array<std::uint8_t, 256> strides_{};
 };

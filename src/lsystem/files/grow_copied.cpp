@@ -10,10 +10,6 @@ namespace espalier::lsystem {
 
 namespace {
 
-/// A file may have several of them, and they are grown when it is read.
-constexpr Limits kCopiedLimits{
-    .lua_instructions = 1e8, .lua_memory_bytes = 64u << 20, .modules = 3'000'000, .steps = 1000};
-
 struct Planting {
   std::vector<double> values;
   Seed seed = 1;
@@ -37,26 +33,29 @@ Planting planting_of(const ParameterTable& table, const std::vector<NamedNumber>
   return planting;
 }
 
-std::shared_ptr<const JointedPlant> grow(const Grammar& grammar, const Planting& planting) {
-  Derivation derivation(grammar, kCopiedLimits);
+std::shared_ptr<const JointedPlant> grow(const Grammar& grammar, const Planting& planting, Limits& left) {
+  Derivation derivation(grammar, left);
   derivation.start(planting.values, planting.seed);
   derivation.run(derivation.settings().steps);
   Settings settings = derivation.settings();
   settings.unit_m = 1;
   auto grown = std::make_shared<JointedPlant>();
-  build_plant(derivation.interpreted(), derivation.alphabet(), settings, grown->plant, &grown->joints);
+  build_plant(derivation.interpreted(), derivation.alphabet(), settings, grown->plant, derivation.work(),
+              &grown->joints);
+  left.work -= derivation.work().done();
+  left.lua_instructions -= derivation.lua_instructions();
   return grown;
 }
 
 }  // namespace
 
-std::shared_ptr<const JointedPlant> grow_copied(const PlantDeclaration& declaration) {
+std::shared_ptr<const JointedPlant> grow_copied(const PlantDeclaration& declaration, Limits& left) {
   const auto& [file, numbers, position] = declaration;
   std::optional<Grammar> grammar;
   try {
     if (!file.ends_with(".lsys"))
       throw_input_error("got file \"{}\", expected one that ends with .lsys", file);
-    grammar = read_grammar(file_beside(file, *position.source).string(), false);
+    grammar = read_grammar(file_beside(file, *position.source).string(), false, position.source->so_far);
     ReadFiles& files = *position.source->files;
     files.insert(files.end(), grammar->files.begin(), grammar->files.end());
   } catch (const InputError& error) {
@@ -64,7 +63,7 @@ std::shared_ptr<const JointedPlant> grow_copied(const PlantDeclaration& declarat
   }
   const Planting planting = planting_of(grammar->parameters, numbers);
   try {
-    return grow(*grammar, planting);
+    return grow(*grammar, planting, left);
   } catch (const InputError& error) {
     throw_at(position, "plant \"{}\": {}", file, error.what());
   }

@@ -110,7 +110,8 @@ class LsystemModel : public Model {
     derivation.run(growth.steps == kAllSteps ? derivation.settings().steps : growth.steps);
     Settings settings = derivation.settings();
     settings.unit_m = values.back();
-    build_plant(derivation.interpreted(), derivation.alphabet(), settings, plant, joints);
+    const ModuleString& drawn = derivation.interpreted();
+    build_plant(drawn, derivation.alphabet(), settings, plant, derivation.work(), joints);
     const double factor = std::max(static_cast<double>(plant.stems.size()) / growth.budget.max_stems,
                                    static_cast<double>(plant.leaves.size()) / growth.budget.max_leaves);
     return {factor <= 1, factor};
@@ -142,7 +143,7 @@ class LsystemModel : public Model {
   void prune(Derivation& derivation, const Volume* volume, double unit_m) const {
     constexpr const char* kClip = "clip";
     const auto& names = grammar_.names.volumes;
-    if (std::find(names.begin(), names.end(), kClip) == names.end()) {
+    if (!names.find(kClip)) {
       if (volume)
         throw_input_error(
             "{}: got a volume to prune to, expected none: the L-system declares no volume 'clip'",

@@ -97,17 +97,19 @@ struct FunctionDeclaration {
 struct LuaCode {
   std::string text;  ///< with line breaks before it, so that Lua counts lines as the file does
   std::string label;
+  std::optional<Expression> body;  ///< of a let: checked to be one expression, before the text is run
 };
 
 struct Grammar {
   std::string name;
-  std::vector<std::string> declared_symbols;
+  DeclaredSymbols declared_symbols;
   SymbolTable alphabet;
   ParameterTable parameters;  ///< those that a search may vary
   std::vector<Constant> constants;
   Names names;
   std::vector<Setting> settings;
   std::vector<LuaCode> lua;
+  std::size_t lua_line_breaks = 0;  ///< before all Lua code, that of productions too
   std::vector<SuccessorModule> axiom;
   std::optional<Position> axiom_position;
   std::vector<ProductionTable> tables;

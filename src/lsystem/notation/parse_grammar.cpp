@@ -3,7 +3,6 @@
 #include <map>
 #include <set>
 
-#include <espalier/core/files.h>
 #include <espalier/lsystem/expressions/lua_words.h>
 #include <espalier/lsystem/notation/grammar.h>
 #include <espalier/lsystem/notation/headings.h>
@@ -24,6 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFunctions = 1000;
+constexpr std::size_t kMostProductions = 20'000, kMostConstants = 20'000;
+constexpr int kMostIncludes = 1000, kDeepestInclude = 64;
 
 class Parser {
  public:
@@ -56,7 +57,17 @@ class Parser {
     for (const Statement& statement : file.statements) {
       Cursor cursor(file, statement.begin, statement.end);
       if (!cursor.take("symbols:")) continue;
-      while (!cursor.at_end()) grammar_.declared_symbols.push_back(cursor.expect_word("a name"));
+      while (!cursor.at_end()) declare_symbol(cursor);
+    }
+  }
+
+  void declare_symbol(Cursor& cursor) {
+    cursor.skip_space();
+    const Position position = cursor.position();
+    try {
+      grammar_.declared_symbols.add(cursor.expect_word("a name"));
+    } catch (const InputError& error) {
+      throw_at(position, "{}", error.what());
     }
   }
 
@@ -151,7 +162,8 @@ class Parser {
 
   void parse_lua(Cursor& cursor) {
     collect_assigned(cursor.rest(), grammar_.names.from_lua);
-    grammar_.lua.push_back({lua_code(cursor, cursor.at(), cursor.rest()), cursor.position().source->label});
+    grammar_.lua.push_back({lua_code(cursor, cursor.at(), cursor.rest(), grammar_),
+                            cursor.position().source->label, std::nullopt});
   }
 
   std::string new_name(Cursor& cursor) {
@@ -162,6 +174,8 @@ class Parser {
       throw_at(position, "got '{}', expected a name that is not taken by Lua, the step or the unit", name);
     if (!taken_.insert(name).second)
       throw_at(position, "got '{}' a second time, expected another name", name);
+    if (grammar_.constants.size() >= kMostConstants)
+      throw_at(position, "got more than {} constants and parameters, expected fewer", kMostConstants);
     return name;
   }
 
@@ -196,13 +210,14 @@ class Parser {
     cursor.expect("=");
     const Expression body = parse_expression(cursor, "");
     function.body = body.text;
-    grammar_.names.functions.push_back(function);
+    grammar_.names.functions.emplace(function.name, function);
     // Lua sees it as well, for expressions that are left to it.
     std::string parameters;
     for (const std::string& name : function.parameters) parameters += (parameters.empty() ? "" : ", ") + name;
     const std::string code =
-        fmt::format("function {}({}) return {} end", function.name, parameters, function.body);
-    grammar_.lua.push_back({lua_code(cursor, body.position.offset, code), cursor.position().source->label});
+        fmt::format("function {}({}) return {}\n end", function.name, parameters, function.body);
+    grammar_.lua.push_back(
+        {lua_code(cursor, body.position.offset, code, grammar_), cursor.position().source->label, body});
   }
 
   /// function f = [0, 0.2, 1, 1] in 0 .. 1
@@ -250,11 +265,20 @@ class Parser {
       throw_at(position, "got include \"{}\", expected the name of an .lsys file in the same folder", name);
     if (!included_.insert(name).second)
       throw_at(position, "got include \"{}\" a second time, expected it once", name);
-    const Source& from = *position.source;
-    const fs::path path = note_file(name, from);
-    auto source = std::make_shared<Source>(
-        Source{path.string(), from.folder, read_file(path), true, from.may_have_plants, from.files});
-    parse(std::move(source), true);
+    if (included_.size() > kMostIncludes || depth_ >= kDeepestInclude)
+      throw_at(position, "got more than {} includes, or in more than {} files, expected fewer", kMostIncludes,
+               kDeepestInclude);
+    ++depth_;
+    parse(included_source(name, *position.source), true);
+    --depth_;
+  }
+
+  static std::shared_ptr<const Source> included_source(const std::string& name, const Source& from) {
+    const fs::path path = from.folder / name;
+    std::string text = read_text(path, *from.so_far);
+    from.files->push_back(path);
+    return std::make_shared<Source>(Source{path.string(), from.folder, std::move(text), true,
+                                           from.may_have_plants, from.files, from.so_far});
   }
 
   bool parse_setting(Cursor& cursor) {
@@ -277,6 +301,8 @@ class Parser {
     if (!section_ || cursor.rest().find("-->") == std::string_view::npos)
       fail_unknown(cursor, section_ ? "a production with '-->', a setting or a keyword (see docs/lsystem.md)"
                                     : "a keyword, a setting, or 'productions:' before the first production");
+    if (grammar_.productions.size() + grammar_.interpretations.size() >= kMostProductions)
+      throw_at(cursor.position(), "got more than {} productions, expected fewer", kMostProductions);
     section_->push_back(parse_production(cursor, grammar_, section_->size() + 1));
     section_->back().table = table_;
   }
@@ -284,7 +310,7 @@ class Parser {
   Grammar& grammar_;
   std::shared_ptr<Appearance> appearance_ = std::make_shared<Appearance>();
   std::vector<Production>* section_ = nullptr;
-  int table_ = -1;
+  int table_ = -1, depth_ = 0;
   std::set<std::string> taken_, included_;
 };
 

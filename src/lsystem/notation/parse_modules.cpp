@@ -8,6 +8,8 @@ namespace espalier::lsystem {
 
 namespace {
 
+constexpr std::size_t kMostNested = 10'000;
+constexpr std::size_t kLongestPattern = 1000;
 constexpr std::string_view kModule = "a module (a letter, a turtle symbol or a declared name)";
 
 /// The name of the next module.
@@ -27,6 +29,9 @@ class Brackets {
  public:
   void see(std::string_view name, const Cursor& cursor, std::size_t offset) {
     if (name == "[") open_.push_back(offset);
+    if (open_.size() > kMostNested)
+      throw_at(cursor.position(offset), "got {} brackets in each other, expected at most {}", open_.size(),
+               kMostNested);
     if (name != "]") return;
     if (open_.empty()) throw_at(cursor.position(offset), "got ']', expected a '[' before it");
     open_.pop_back();
@@ -100,6 +105,8 @@ std::vector<PatternModule> parse_pattern(Cursor& cursor, Grammar& grammar) {
                       std::string_view("<>:").find(cursor.rest()[0]) != std::string_view::npos;
     if (ends) break;
     const std::size_t offset = cursor.at();
+    if (modules.size() >= kLongestPattern)
+      cursor.fail(fmt::format("at most {} modules before the arrow", kLongestPattern));
     modules.push_back(parse_pattern_module(cursor, grammar));
     brackets.see(grammar.alphabet[modules.back().symbol].name, cursor, offset);
   }

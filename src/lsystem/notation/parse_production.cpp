@@ -8,6 +8,9 @@ namespace espalier::lsystem {
 
 namespace {
 
+/// Before all pieces of Lua code, each of which has those of the file before it.
+constexpr std::size_t kMostLineBreaks = 2'000'000;
+
 /// An id is followed by a colon at once; the colon before a condition has a space before it.
 std::string parse_id(Cursor& cursor) {
   const std::size_t begin = cursor.at();
@@ -79,7 +82,7 @@ void parse_result(Cursor& cursor, Grammar& grammar, Production& production) {
   const std::string_view rest = cursor.rest();
   if (rest.starts_with("lua") &&
       (rest.size() == 3 || rest.substr(3).find_first_not_of(" \t\r") == rest.substr(3).find('\n'))) {
-    production.lua_body = Expression{lua_code(cursor, begin, rest.substr(3)), cursor.position()};
+    production.lua_body = Expression{lua_code(cursor, begin, rest.substr(3), grammar), cursor.position()};
     cursor.go_to(begin + rest.size());
     return;
   }
@@ -89,10 +92,13 @@ void parse_result(Cursor& cursor, Grammar& grammar, Production& production) {
 
 }  // namespace
 
-std::string lua_code(const Cursor& cursor, std::size_t begin, std::string_view code) {
-  const std::string& text = cursor.position().source->text;
-  const auto lines = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
-  return std::string(static_cast<std::size_t>(lines), '\n') + std::string(code);
+std::string lua_code(const Cursor& cursor, std::size_t begin, std::string_view code, Grammar& grammar) {
+  const std::size_t breaks = cursor.position().source->line_of(begin) - 1;
+  grammar.lua_line_breaks += breaks;
+  if (grammar.lua_line_breaks > kMostLineBreaks)
+    throw_at(cursor.position(begin),
+             "got too much Lua code after too many lines, expected fewer pieces of it");
+  return std::string(breaks, '\n') + std::string(code);
 }
 
 Production parse_production(Cursor& cursor, Grammar& grammar, std::size_t number) {

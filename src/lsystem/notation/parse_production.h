@@ -10,7 +10,7 @@ namespace espalier::lsystem {
 Production parse_production(Cursor& cursor, Grammar& grammar, std::size_t number);
 
 /// Lua code that starts at an offset of the cursor's file, after as many line breaks as the file has before
-/// it: Lua then counts lines as the file does.
-std::string lua_code(const Cursor& cursor, std::size_t begin, std::string_view code);
+/// it: Lua then counts lines as the file does. Throws InputError where the grammar has too many of them.
+std::string lua_code(const Cursor& cursor, std::size_t begin, std::string_view code, Grammar& grammar);
 
 }  // namespace espalier::lsystem

@@ -25,10 +25,8 @@ bool is_query(std::string_view name) {
          std::string_view("PHUL").find(name[1]) != std::string_view::npos;
 }
 
-std::size_t symbol_length(std::string_view text, const std::vector<std::string>& declared) {
-  std::size_t longest = 0;
-  for (const std::string& name : declared)
-    if (name.size() > longest && text.starts_with(name)) longest = name.size();
+std::size_t symbol_length(std::string_view text, const DeclaredSymbols& declared) {
+  std::size_t longest = declared.longest(text);
   if (longest > 0 || text.empty()) return longest;
   if (std::isalpha(static_cast<unsigned char>(text[0]))) return 1;
   for (const CommandInfo& info : kCommands)

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include <espalier/lsystem/strings/declared_symbols.h>
+
 namespace espalier::lsystem {
 
 using SymbolId = std::uint16_t;
@@ -40,7 +42,7 @@ class SymbolTable {
 
 /// The length of the symbol's name that `text` opens with: the longest of `declared`, else one of the
 /// built-in names; 0 where there is none.
-std::size_t symbol_length(std::string_view text, const std::vector<std::string>& declared);
+std::size_t symbol_length(std::string_view text, const DeclaredSymbols& declared);
 
 bool is_query(std::string_view name);
 

@@ -6,12 +6,14 @@
 #include <vector>
 
 #include <espalier/core/vec3.h>
+#include <espalier/lsystem/strings/work.h>
 
 namespace espalier::lsystem {
 
 using Triangle = std::array<Vec3, 3>;
 
 /// Appends the triangles of a polygon. One that crosses itself is filled as far as ears can be cut.
-void triangulate(std::span<const Vec3> vertices, std::vector<Triangle>& triangles);
+/// Which may take the cube of their number: it is counted as work.
+void triangulate(std::span<const Vec3> vertices, std::vector<Triangle>& triangles, Work& work);
 
 }  // namespace espalier::lsystem

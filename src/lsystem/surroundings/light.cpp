@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 
+#include <espalier/lsystem/strings/work.h>
 #include <espalier/lsystem/surroundings/light.h>
 
 namespace espalier::lsystem {
@@ -39,12 +40,14 @@ std::vector<Vec3> sky_directions() {
 }
 
 /// Sphere tracing: no step is longer than the way to the surface.
-bool meets(const Volume& volume, Vec3 from, Vec3 direction, float gap) {
+bool meets(const Volume& volume, Vec3 from, Vec3 direction, float gap, double& work) {
   constexpr float kReach = 1000, kSmallStep = 0.02f;
   constexpr int kSteps = 500;
+  const double parts = volume.size().parts;
   float t = gap;
   for (int i = 0; i < kSteps && t < kReach; ++i) {
     const Vec3 p = from + direction * t;
+    work += 2 * work_of::kVolume * parts;
     if (volume.contains(p)) return true;
     t += std::max(0.9f * volume.signed_distance_m(p), kSmallStep);
   }
@@ -64,7 +67,8 @@ void PlantLight::set(const Plant& plant, double unit_m, Vec3 towards_sun, double
   scene_.build(plant, 0.01f * unit_m_);
 }
 
-bool PlantLight::is_free(Vec3 place, Vec3 direction) const {
+bool PlantLight::is_free(Vec3 place, Vec3 direction, double& work) const {
+  work += work_of::kRay;
   const Vec3 origin = place * unit_m_;
   RTCRay ray{origin.x,
              origin.y,
@@ -83,13 +87,14 @@ bool PlantLight::is_free(Vec3 place, Vec3 direction) const {
   rtcOccluded1(scene_.handle(), &context, &ray);
   if (ray.tfar < 0) return false;
   return std::none_of(shades_.begin(), shades_.end(),
-                      [&](const VolumePtr& shade) { return meets(*shade, place, direction, gap_); });
+                      [&](const VolumePtr& shade) { return meets(*shade, place, direction, gap_, work); });
 }
 
-double PlantLight::share(const std::vector<Vec3>& directions, Vec3 place) const {
+LightShare PlantLight::share(const std::vector<Vec3>& directions, Vec3 place) const {
+  double work = 0;
   const auto free = std::count_if(directions.begin(), directions.end(),
-                                  [&](Vec3 direction) { return is_free(place, direction); });
-  return static_cast<double>(free) / static_cast<double>(directions.size());
+                                  [&](Vec3 direction) { return is_free(place, direction, work); });
+  return {static_cast<double>(free) / static_cast<double>(directions.size()), work};
 }
 
 }  // namespace espalier::lsystem

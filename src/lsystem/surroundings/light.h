@@ -8,18 +8,23 @@
 
 namespace espalier::lsystem {
 
+struct LightShare {
+  double free = 1;  ///< in [0, 1]
+  double work = 0;  ///< of finding it (strings/work.h)
+};
+
 class PlantLight {
  public:
   PlantLight();
   void set(const Plant& plant, double unit_m, Vec3 towards_sun, double gap, std::vector<VolumePtr> shades);
-  /// Shares in [0, 1]: of the sun, a disc of 6°, and of the sky, where what is high counts for more (cosine
+  /// Of the sun, a disc of 6°, and of the sky, where what is high counts for more (cosine
   /// law).
-  double of_sun(Vec3 place) const { return share(sun_, place); }
-  double of_sky(Vec3 place) const { return share(sky_, place); }
+  LightShare of_sun(Vec3 place) const { return share(sun_, place); }
+  LightShare of_sky(Vec3 place) const { return share(sky_, place); }
 
  private:
-  double share(const std::vector<Vec3>& directions, Vec3 place) const;
-  bool is_free(Vec3 place, Vec3 direction) const;
+  LightShare share(const std::vector<Vec3>& directions, Vec3 place) const;
+  bool is_free(Vec3 place, Vec3 direction, double& work) const;
 
   EmbreeScene scene_;
   float unit_m_ = 1, gap_ = 0;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include <espalier/core/error.h>
+#include <espalier/lsystem/strings/work.h>
 #include <espalier/lsystem/surroundings/light.h>
 #include <espalier/lsystem/surroundings/surroundings.h>
 
@@ -33,12 +34,22 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 Surroundings::Surroundings() = default;
 Surroundings::~Surroundings() = default;
 
+void Surroundings::count(double units) const {
+  if (work_) work_->add(units);
+}
+
+const Volume& Surroundings::asked_volume(std::size_t volume) const {
+  const Volume& asked = *there(volumes, volume, "volume");
+  count(work_of::kVolume * asked.size().parts);
+  return asked;
+}
+
 double Surroundings::distance(std::size_t volume, Place place) const {
-  return is_place(place) ? there(volumes, volume, "volume")->signed_distance_m(to_vec3(place)) : kNone;
+  return is_place(place) ? asked_volume(volume).signed_distance_m(to_vec3(place)) : kNone;
 }
 
 bool Surroundings::inside(std::size_t volume, Place place) const {
-  return is_place(place) && there(volumes, volume, "volume")->contains(to_vec3(place));
+  return is_place(place) && asked_volume(volume).contains(to_vec3(place));
 }
 
 double Surroundings::field(std::size_t field, Place place) const {
@@ -51,12 +62,18 @@ double Surroundings::field(std::size_t field, Place place) const {
 
 double Surroundings::light(std::size_t, Place place) const {
   if (!is_place(place)) return kNone;
-  return light_ ? light_->of_sun(to_vec3(place)) : 1;
+  if (!light_) return 1;
+  const LightShare sun = light_->of_sun(to_vec3(place));
+  count(sun.work);
+  return sun.free;
 }
 
 double Surroundings::skylight(std::size_t, Place place) const {
   if (!is_place(place)) return kNone;
-  return light_ ? light_->of_sky(to_vec3(place)) : 1;
+  if (!light_) return 1;
+  const LightShare sky = light_->of_sky(to_vec3(place));
+  count(sky.work);
+  return sky.free;
 }
 
 void Surroundings::set_light(const Plant& plant, double unit_m, Vec3 towards_sun, double gap,

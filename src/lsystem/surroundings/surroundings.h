@@ -12,6 +12,7 @@
 namespace espalier::lsystem {
 
 class PlantLight;  // light.h
+class Work;        // strings/work.h
 
 struct Place {
   double x = 0, y = 0, z = 0;
@@ -27,6 +28,9 @@ class Surroundings {
  public:
   Surroundings();
   ~Surroundings();
+
+  /// What questions are counted in from now on.
+  void set_work(Work& work) { work_ = &work; }
 
   std::vector<VolumePtr> volumes;
   std::vector<PlacedField> fields;
@@ -45,7 +49,11 @@ class Surroundings {
                  std::span<const std::size_t> shades);
 
  private:
+  void count(double units) const;
+  const Volume& asked_volume(std::size_t volume) const;
+
   std::unique_ptr<PlantLight> light_;
+  Work* work_ = nullptr;
 };
 
 }  // namespace espalier::lsystem

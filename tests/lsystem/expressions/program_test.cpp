@@ -31,7 +31,8 @@ class Programs : public testing::Test {
   /// Both results for all pairs of values.
   void expect_same(const std::string& text, bool is_condition) {
     SCOPED_TRACE(text);
-    const auto program = compile_program(text, kColumns, grammar_.names, shared_.random_sites);
+    const auto program =
+        compile_program(text, kColumns, grammar_.names, shared_.random_sites, shared_.expanded_bytes);
     ASSERT_TRUE(program.has_value());
     ASSERT_EQ(program->is_condition, is_condition);
     const std::vector<Column> columns{{x_.data(), 1}, {y_.data(), 1}};
@@ -89,11 +90,14 @@ TEST_F(Programs, DecideConditionsAsLuaDoes) {
 TEST_F(Programs, LeaveTheRestToLua) {
   for (const char* text : {"unknown(x)", "x..y", "#x", "{x}", "x == true", "(x < 1) + 1", "x < 1 and y",
                            "\"a\"", "x +", "f(x)[1]"})
-    EXPECT_FALSE(compile_program(text, kColumns, grammar_.names, shared_.random_sites).has_value()) << text;
+    EXPECT_FALSE(compile_program(text, kColumns, grammar_.names, shared_.random_sites, shared_.expanded_bytes)
+                     .has_value())
+        << text;
 }
 
 TEST_F(Programs, DrawUniformNumbersByKeyAndPlace) {
-  const auto program = compile_program("random()", kColumns, grammar_.names, shared_.random_sites);
+  const auto program =
+      compile_program("random()", kColumns, grammar_.names, shared_.random_sites, shared_.expanded_bytes);
   ASSERT_TRUE(program.has_value());
   std::vector<RandomKey> keys;
   for (std::uint64_t i = 0; i < kBlockSize; ++i) keys.push_back(child_key(root_key(1), i));

@@ -24,7 +24,7 @@ TEST(SymbolTable, RefusesMoreParametersThanAModuleHas) {
 }
 
 TEST(SymbolLength, TheLongestDeclaredNameComesFirst) {
-  const std::vector<std::string> declared{"Leaf", "Le"};
+  const DeclaredSymbols declared{"Leaf", "Le"};
   EXPECT_EQ(symbol_length("Leaf(1)", declared), 4u);
   EXPECT_EQ(symbol_length("Lea", declared), 2u);
   EXPECT_EQ(symbol_length("L", declared), 1u);
