@@ -40,6 +40,7 @@ class CrownEnvelope final : public Volume {
   bool contains(Vec3 point_m) const override { return outside(point_m.x, point_m.y, point_m.z) <= 0; }
   float signed_distance_m(Vec3 point_m) const override;
   bool surely_contains_ball(Vec3 center_m, float radius_m) const override;
+  VolumeSize size() const override { return {10, 1}; }
 
   /// From a point along a unit vector to where the envelope is left for the first time; 0 for a ray that is
   /// nowhere inside. A ray from outside that passes through less than an eighth of its way may be taken for

@@ -166,6 +166,8 @@ class PictureEnvelope : public Volume {
                        [&](const OneOutline& one) { return one.surely_contains_ball(center_m, radius_m); });
   }
 
+  VolumeSize size() const override { return {4 * static_cast<double>(outlines_.size()), 1}; }
+
  private:
   std::vector<OneOutline> outlines_;
 };

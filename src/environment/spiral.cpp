@@ -28,6 +28,8 @@ class Spiral final : public Volume {
                                   scale(turn) * shape_.tube_radius_m);
     return static_cast<float>(nearest_m);
   }
+  /// Each turn takes several powers.
+  VolumeSize size() const override { return {6 + 5 * static_cast<double>(shape_.turns), 1}; }
 
  private:
   double scale(double turn) const { return std::pow(double{shape_.shrink}, turn); }

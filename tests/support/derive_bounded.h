@@ -9,24 +9,32 @@
 
 namespace espalier::lsystem {
 
-/// Parses, derives and draws `text`. The message of its refusal, empty where there is none; other exceptions
-/// pass.
-inline std::string derive_bounded(const std::string& text) {
+/// Derives and draws the grammar that `read` gives. The message of its refusal, empty where there is none;
+/// other exceptions pass.
+template <typename Read>
+std::string derive_bounded(const Read& read) {
   Limits limits;
   limits.lua_instructions = 2e5;
   limits.lua_memory_bytes = 16 << 20;
   limits.modules = 5000;
+  limits.work = 1e7;
   try {
-    const Grammar grammar = parse_grammar(text, "any.lsys");
+    const Grammar grammar = read();
     Derivation derivation(grammar, limits);
     derivation.start(1);
     derivation.run(3);
     Plant plant;
-    build_plant(derivation.interpreted(), derivation.alphabet(), derivation.settings(), plant);
+    build_plant(derivation.interpreted(), derivation.alphabet(), derivation.settings(), plant,
+                derivation.work());
     return "";
   } catch (const InputError& error) {
     return error.what();
   }
+}
+
+/// The same of a text.
+inline std::string derive_bounded(const std::string& text) {
+  return derive_bounded([&] { return parse_grammar(text, "any.lsys"); });
 }
 
 }  // namespace espalier::lsystem

@@ -44,6 +44,25 @@ void check_names(const Expression& expression, std::span<const std::string> colu
   }
 }
 
+/// In additions.
+double weight_of(Op op) {
+  switch (op) {
+    case Op::power:
+    case Op::sin:
+    case Op::cos:
+    case Op::tan:
+    case Op::exp:
+    case Op::log:
+    case Op::curve:
+      return 6;
+    case Op::modulo:
+    case Op::random:
+      return 3;
+    default:
+      return 1;
+  }
+}
+
 }  // namespace
 
 BlockExpression::BlockExpression(const Expression& expression, std::span<const std::string> columns,
@@ -60,15 +79,16 @@ BlockExpression::BlockExpression(const Expression& expression, std::span<const s
     throw_at(expression.position, "'{}': {}", shortened(expression.text), error.what());
   }
   if (program_ && program_->is_condition != is_condition) program_.reset();
+  if (program_)
+    for (const Instruction& instruction : program_->code) operations_ += weight_of(instruction.op);
   if (!program_) function_ = shared.functions.compile(expression, columns, is_condition);
 }
 
 Column BlockExpression::compute(std::span<const Column> columns, const RandomKey* keys, std::size_t count,
                                 RuleContext& shared) {
   if (program_) {
-    shared.work.add(work_of::kBlock / 2 +
-                    static_cast<double>(program_->code.size()) *
-                        (work_of::kOperation * static_cast<double>(count) + work_of::kBlock / 4));
+    shared.work.add(work_of::kBlock / 2 + static_cast<double>(program_->code.size()) * work_of::kBlock / 4 +
+                    operations_ * work_of::kOperation * static_cast<double>(count));
     return run_program(
         *program_, {columns, shared.globals.data(), keys, count, &shared.surroundings, shared.curves.data()},
         scratch_);

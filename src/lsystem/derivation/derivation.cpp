@@ -56,6 +56,15 @@ Derivation::Derivation(const Grammar& grammar, const Limits& limits)
   interpretations_.emplace(grammar.interpretations, shared_, limits, RandomSites::of_each_production);
   axiom_ = axiom_production(grammar, shared_.alphabet.intern("axiom", 0));
   axiom_rewriter_.emplace(axiom_, shared_, limits);
+  for (const char* name : {"[", "]", "%"}) shared_.alphabet.intern(name, 0);
+  own_symbols_ = shared_.alphabet.size();
+}
+
+/// Those that Lua code made: no derivation sees, or counts as work, what the one before did.
+void Derivation::forget_symbols() {
+  if (shared_.alphabet.size() == own_symbols_) return;
+  shared_.alphabet.truncate(own_symbols_);
+  for (auto* rewriter : {&productions_, &interpretations_, &axiom_rewriter_}) (*rewriter)->forget_symbols();
 }
 
 /// Variables of the code get their first values again, so that no derivation sees what the one before did.
@@ -123,6 +132,7 @@ void Derivation::start(std::span<const double> parameters, Seed seed) {
   modules_written_ = 0;
   shared_.lua.reset_instructions();
   shared_.work.restart();
+  forget_symbols();
   run_lua_code();
   make_curves(parameters);
   set_global(shared_.globals.size() - 1, 0);
@@ -266,6 +276,8 @@ void Derivation::update_light() {
   constexpr double kGap = 0.3;  // of a segment
   shading_plant_.clear();
   build_plant(interpreted(), shared_.alphabet, settings_, shading_plant_, shared_.work);
+  shared_.work.add(work_of::kInScene *
+                   static_cast<double>(shading_plant_.knots.size() + shading_plant_.leaves.size()));
   shared_.surroundings.set_light(shading_plant_, settings_.unit_m, towards_sun(), kGap * settings_.length,
                                  shared_.grammar.shades);
 }

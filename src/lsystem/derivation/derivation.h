@@ -67,6 +67,7 @@ class Derivation {
   };
 
   void run_lua_code();
+  void forget_symbols();
   void make_curves(std::span<const double> parameters);
   double evaluate(BlockExpression& expression);
   void set_global(std::size_t global, double value);
@@ -93,6 +94,7 @@ class Derivation {
   Plant shading_plant_;
   std::optional<std::size_t> fraction_global_;  ///< none where the file has another meaning for the name
   Settings settings_;
+  std::size_t own_symbols_ = 0;  ///< of the file, and not of what Lua code made of it
   Seed seed_ = 0;
   int step_ = 0;
   bool has_ended_ = false;

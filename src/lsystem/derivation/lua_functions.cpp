@@ -2,12 +2,24 @@
 #include <lua.hpp>
 
 #include <espalier/lsystem/derivation/lua_functions.h>
+#include <espalier/lsystem/expressions/lua_usage.h>
 #include <espalier/lsystem/strings/turtle_commands.h>
 #include <espalier/lsystem/surfaces/surfaces.h>
 
 namespace espalier::lsystem {
 
 namespace {
+
+constexpr double kPerDraw = 10, kPerModule = 30, kPerParameter = 6;
+
+/// Of the arguments of produce(): at most one module for each letter.
+double instructions_to_produce(lua_State* state) {
+  double instructions = 0;
+  for (int i = 1; i <= lua_gettop(state); ++i)
+    instructions += lua_type(state, i) == LUA_TSTRING ? kPerModule * static_cast<double>(lua_objlen(state, i))
+                                                      : kPerParameter;
+  return instructions;
+}
 
 std::string joined(std::span<const std::string> names) {
   std::string text;
@@ -43,6 +55,7 @@ void LuaFunctions::set_key(RandomKey key) {
 /// random(): uniform in [0, 1); random(n) and random(m, n): a whole number from 1 or m to n, as math.random.
 int LuaFunctions::lua_random(lua_State* state) {
   auto* self = static_cast<LuaFunctions*>(lua_touserdata(state, lua_upvalueindex(1)));
+  charge_lua(state, kPerDraw);
   constexpr std::uint32_t kFirstSite = 1u << 30;  // far from the sites of programs
   const double u = random_unit(self->key_, kFirstSite + self->draws_++);
   const int arguments = lua_gettop(state);
@@ -70,6 +83,7 @@ int LuaFunctions::lua_at(lua_State* state) {
 int LuaFunctions::lua_produce(lua_State* state) {
   auto* self = static_cast<LuaFunctions*>(lua_touserdata(state, lua_upvalueindex(1)));
   if (!self->out_) return luaL_error(state, "produce is for the bodies of productions");
+  charge_lua(state, instructions_to_produce(state));
   try {
     self->produce(state);
     return 0;

@@ -4,6 +4,12 @@
 
 namespace espalier::lsystem {
 
+namespace {
+
+constexpr std::size_t kMostValues = 30'000'000;  // of a string: 240 MB
+
+}  // namespace
+
 Rewriter::Rewriter(const std::vector<Production>& productions, RuleContext& shared, const Limits& limits,
                    RandomSites sites)
     : shared_(shared),
@@ -145,6 +151,7 @@ void Rewriter::choose_among(const Candidates& candidates, const std::vector<Rule
 /// A stochastic rule gets a candidate where the draw falls into its share of [0, 1).
 void Rewriter::claim_hits(Rule& rule, const Candidates& candidates, const Rewriting& rewriting) {
   const bool stochastic = rule.production().probability.has_value();
+  shared_.work.add(2 * work_of::kCandidate * static_cast<double>(rule.hits().size()));
   for (std::size_t slot = 0; slot < rule.hits().size(); ++slot) {
     const std::size_t i = rule.hits()[slot];
     const bool shared = stochastic && claims_[i] == Claim::stochastic;
@@ -209,6 +216,9 @@ void Rewriter::emit(const ModuleString& string, std::size_t begin, std::size_t e
     value_count += choice.rule ? choice.rule->value_count(choice.slot) : arities[symbols[i]];
     value_offset_ += arities[symbols[i]];
   }
+  if (result.values.size() + value_count > kMostValues)
+    throw TooManyModules(fmt::format("{}: the string has more than {} parameters, expected fewer",
+                                     shared_.grammar.name, kMostValues));
   if (result.size() + symbol_count > limits_.modules)
     throw TooManyModules(
         fmt::format("{}: the string has more than {} modules, expected fewer (--max-modules)",

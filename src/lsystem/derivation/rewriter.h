@@ -29,6 +29,8 @@ class Rewriter {
            RandomSites sites = RandomSites::of_all_productions);
 
   void set_limits(const Limits& limits) { limits_ = limits; }
+  /// The alphabet has lost symbols that Lua code made.
+  void forget_symbols() { by_name_.clear(); }
   bool is_empty() const { return rules_.empty(); }
   /// Whether a production may draw random numbers.
   bool draws() const;

@@ -66,6 +66,7 @@ class BlockExpression {
  private:
   const Expression* source_;
   std::optional<Program> program_;
+  double operations_ = 0;  ///< of the program, on a module
   LuaState::Function function_ = 0;
   std::vector<double> scratch_;
 };

@@ -141,6 +141,8 @@ class Builder : public SilentVisitor {
     return static_cast<std::uint32_t>(joints_.organs.size() - 1);
   }
 
+  std::string label() const { return settings_.appearance ? settings_.appearance->file + ": " : ""; }
+
   Vec3 point(const Vector& p) const {
     return Vec3{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)} * unit_;
   }
@@ -251,6 +253,8 @@ class Builder : public SilentVisitor {
     std::vector<Vec3> outline;
     try {
       outline = frames_.close_edge(label_of(step), axis_.node);
+    } catch (const TooMuchWork&) {
+      throw;
     } catch (const InputError& error) {
       throw_input_error("module {} of the string: {}", step.module, error.what());
     }
@@ -268,11 +272,11 @@ class Builder : public SilentVisitor {
     work_.add(work_of::kLeaf * static_cast<double>(more_leaves) +
               work_of::kKnot * static_cast<double>(more_copied_knots));
     if (triangles_.size() + plant_.leaves.size() + more_leaves > kMostLeaves)
-      throw TooManyModules(
-          fmt::format("got more than {} leaves and triangles of surfaces, expected fewer", kMostLeaves));
+      throw TooManyModules(fmt::format("{}got more than {} leaves and triangles of surfaces, expected fewer",
+                                       label(), kMostLeaves));
     if (copied_knots_ + more_copied_knots > kMostCopiedKnots)
-      throw TooManyModules(
-          fmt::format("got copies of plants with more than {} knots, expected fewer", kMostCopiedKnots));
+      throw TooManyModules(fmt::format("{}got copies of plants with more than {} knots, expected fewer",
+                                       label(), kMostCopiedKnots));
   }
 
   /// A copy of a plant, as if its turtle started with the position and the directions of this one.

@@ -32,7 +32,7 @@ struct Value {
 using Scope = std::map<std::string, Value, std::less<>>;
 
 constexpr std::size_t kMaxTemporaries = 250;
-constexpr std::size_t kMostExpandedBytes = 20'000'000, kBytesOfCall = 100;
+constexpr std::size_t kMostExpandedBytes = 10'000'000, kBytesOfCall = 100;
 constexpr int kMaxDepth = 60;
 
 class Compiler {

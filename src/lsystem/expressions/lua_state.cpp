@@ -111,7 +111,7 @@ void LuaState::call(int arguments, int results) {
 
 /// Compiles the code to a function on the stack.
 void LuaState::load(const std::string& code, const std::string& label) {
-  usage_->longest_literal = std::max(usage_->longest_literal, longest_literal(code));
+  usage_->literal_instructions = std::max(usage_->literal_instructions, literal_instructions(code));
   const std::string name = "=" + label;
   usage_->is_loading = true;
   const int status = luaL_loadbufferx(state_, code.data(), code.size(), name.c_str(), "t");

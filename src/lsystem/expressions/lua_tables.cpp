@@ -12,7 +12,7 @@ namespace espalier::lsystem {
 namespace {
 
 constexpr int kMostUnpacked = 1000;
-constexpr double kPerKey = 4, kPerComparison = 10;
+constexpr double kPerKey = 4, kPerComparison = 10, kPerPiece = 60, kNumberToText = 60;
 
 /// Going through a table passes its empty places too, which nobody can see.
 void charge_traversal(lua_State* state) {
@@ -31,9 +31,25 @@ int call_original(lua_State* state) {
   return lua_gettop(state);
 }
 
-int lua_moving(lua_State* state) {
+int lua_insert_element(lua_State* state) {
   charge_lua(state, 1 + length_of(state, 1));
   return call_original(state);
+}
+
+/// table.remove(table, place): what was there, and those behind it move up.
+int lua_remove_element(lua_State* state) {
+  luaL_checktype(state, 1, LUA_TTABLE);
+  const int count = static_cast<int>(lua_objlen(state, 1)), place = luaL_optint(state, 2, count);
+  if (place < 1 || place > count) return 0;
+  charge_lua(state, 1 + kPerKey * (count - place));
+  lua_rawgeti(state, 1, place);
+  for (int i = place; i < count; ++i) {
+    lua_rawgeti(state, 1, i + 1);
+    lua_rawseti(state, 1, i);
+  }
+  lua_pushnil(state);
+  lua_rawseti(state, 1, count);
+  return 1;
 }
 
 int lua_maxn(lua_State* state) {
@@ -49,6 +65,7 @@ int lua_to_number(lua_State* state) {
 int lua_to_string(lua_State* state) {
   luaL_checkany(state, 1);
   const int type = lua_type(state, 1);
+  if (type == LUA_TNUMBER) charge_lua(state, kNumberToText);
   if (type == LUA_TNUMBER || type == LUA_TSTRING || type == LUA_TBOOLEAN || type == LUA_TNIL)
     return call_original(state);
   lua_pushstring(state, lua_typename(state, type));
@@ -88,7 +105,7 @@ int lua_table_concat(lua_State* state) {
       return luaL_error(state, "table.concat: value %d is a %s, expected a string or a number", i,
                         luaL_typename(state, -1));
     const std::size_t more = between_length + lua_objlen(state, -1);
-    charge_lua(state, 8 + static_cast<double>(more) / 8);
+    charge_lua(state, kPerPiece + static_cast<double>(more) / 8);
     charge_new_string(state, length += more);
     luaL_addvalue(&buffer);
     if (i == last) break;  // which may be the largest there is
@@ -273,8 +290,8 @@ void replace_table_functions(lua_State* state) {
   lua_getfield(state, -1, LUA_TABLIBNAME);
   replace_functions(state, {{"concat", lua_table_concat},
                             {"sort", lua_sort},
-                            {"insert", lua_moving, true},
-                            {"remove", lua_moving, true},
+                            {"insert", lua_insert_element, true},
+                            {"remove", lua_remove_element},
                             {"maxn", lua_maxn, true}});
   for (const char* name : {"foreach", "foreachi"}) {  // in an order by chance
     lua_pushnil(state);

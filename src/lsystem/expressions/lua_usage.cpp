@@ -10,7 +10,11 @@ namespace espalier::lsystem {
 namespace {
 
 constexpr std::size_t kLongestString = 1 << 20;
-constexpr double kAllocation = 16, kBytesPerInstruction = 32;
+constexpr double kAllocation = 32, kAllocatedPerInstruction = 4;
+// A string is copied and compared fast, and read as a number slowly.
+constexpr double kBytesPerInstruction = 32, kDigitsPerInstruction = 4;
+constexpr std::size_t kLargeTable = 256 << 10;
+constexpr double kOutOfCaches = 3;
 
 /// LuaJIT puts strings together in one buffer, whose size is doubled until they fit; nothing else grows from
 /// one power of two to another (parts of tables have room for one more).
@@ -40,6 +44,13 @@ std::size_t quoted_end(std::string_view code, std::size_t i) {
   return std::min(i + 1, code.size());
 }
 
+/// What an instruction on the string may take, which stands in its quotes.
+double reading_of(std::string_view literal) {
+  const bool may_be_number =
+      literal.find_first_not_of("0123456789abcdefABCDEFxXpP.+- \t\r\n\\\"'[]=z") == std::string_view::npos;
+  return static_cast<double>(literal.size()) / (may_be_number ? kDigitsPerInstruction : kBytesPerInstruction);
+}
+
 std::size_t comment_end(std::string_view code, std::size_t i) {
   const std::size_t begin = i + 2;
   if (begin < code.size() && long_bracket_end(code, begin) > begin) return long_bracket_end(code, begin);
@@ -48,8 +59,8 @@ std::size_t comment_end(std::string_view code, std::size_t i) {
 
 }  // namespace
 
-std::size_t longest_literal(std::string_view code) {
-  std::size_t longest = 0;
+double literal_instructions(std::string_view code) {
+  double most = 0;
   for (std::size_t i = 0; i < code.size();) {
     std::size_t end = i;
     if (code.substr(i).starts_with("--")) {
@@ -58,10 +69,10 @@ std::size_t longest_literal(std::string_view code) {
     }
     if (code[i] == '"' || code[i] == '\'') end = quoted_end(code, i);
     if (code[i] == '[') end = long_bracket_end(code, i);
-    longest = std::max(longest, end - i);
+    most = std::max(most, reading_of(code.substr(i, end - i)));
     i = std::max(end, i + 1);
   }
-  return longest;
+  return most;
 }
 
 void* allocate_lua(void* data, void* block, std::size_t old_size, std::size_t new_size) {
@@ -75,7 +86,7 @@ void* allocate_lua(void* data, void* block, std::size_t old_size, std::size_t ne
   const bool buffer = !usage->is_loading && is_buffer(old_size, new_size);
   const std::size_t bytes = usage->bytes - old_size + new_size;
   if (new_size > old_size && usage->is_running && !usage->is_ending) {
-    usage->instructions += kAllocation + static_cast<double>(new_size) / kBytesPerInstruction;
+    usage->instructions += kAllocation + static_cast<double>(new_size) / kAllocatedPerInstruction;
     const bool is_too_long = buffer && new_size > kLongestString;
     if (bytes > usage->limits.lua_memory_bytes || is_too_long || usage->is_over()) return nullptr;
   }
@@ -107,13 +118,14 @@ void charge_lua(lua_State* state, double instructions) {
 
 void charge_instructions(lua_State* state, int count) {
   const LuaUsage& usage = usage_of(state);
-  const auto longest = static_cast<double>(std::max(usage.longest_literal, usage.longest_buffer));
-  charge_lua(state, count * (1 + longest / kBytesPerInstruction));
+  const double strings =
+      std::max(usage.literal_instructions, static_cast<double>(usage.longest_buffer) / kDigitsPerInstruction);
+  charge_lua(state, count * (1 + strings + (usage.largest_block > kLargeTable ? kOutOfCaches : 0)));
 }
 
 void charge_string(lua_State* state, int index) {
   if (lua_type(state, index) == LUA_TSTRING)
-    charge_lua(state, static_cast<double>(lua_objlen(state, index)) / kBytesPerInstruction);
+    charge_lua(state, static_cast<double>(lua_objlen(state, index)) / kDigitsPerInstruction);
 }
 
 void charge_new_string(lua_State* state, std::size_t length) {

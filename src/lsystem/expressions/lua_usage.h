@@ -19,7 +19,7 @@ struct LuaUsage {
   bool is_running = false;          ///< inside of a protected call: errors may be raised
   bool is_loading = false;          ///< code is read, not run
   bool is_ending = false;           ///< an error of ours is on its way, and needs some memory
-  std::size_t longest_literal = 0;  ///< of all code
+  double literal_instructions = 0;  ///< more for each instruction, for the longest string in the code
   std::size_t buffer_bytes = 0;     ///< what strings are put together in, now
   std::size_t longest_buffer = 0;   ///< and at most, since instructions were counted anew
   std::size_t largest_block = 0;    ///< of a table or a string, since then
@@ -41,7 +41,7 @@ void charge_string(lua_State* state, int index);
 /// For a string of this length that will be made. Raises an error where it is too long.
 void charge_new_string(lua_State* state, std::size_t length);
 
-/// The length of the longest string that stands in the code.
-std::size_t longest_literal(std::string_view code);
+/// How many more instructions one may count for that uses the longest string in the code.
+double literal_instructions(std::string_view code);
 
 }  // namespace espalier::lsystem

@@ -101,7 +101,7 @@ struct Names {
 /// The program of an expression whose names are `columns` (parameters of modules), globals and functions;
 /// nullopt where it is not plain arithmetic, or does not parse. `random_sites` numbers the calls of random().
 /// Bodies of let functions are read anew at each call, and may call others: `expanded_bytes` counts them over
-/// all expressions of a file. Throws InputError where there are more than 20 million.
+/// all expressions of a file. Throws InputError where there are more than 10 million.
 std::optional<Program> compile_program(std::string_view expression, std::span<const std::string> columns,
                                        const Names& names, std::uint32_t& random_sites,
                                        std::size_t& expanded_bytes);

@@ -109,6 +109,7 @@ struct Grammar {
   Names names;
   std::vector<Setting> settings;
   std::vector<LuaCode> lua;
+  std::size_t modules = 0;          ///< of axiom and successors
   std::size_t lua_line_breaks = 0;  ///< before all Lua code, that of productions too
   std::vector<SuccessorModule> axiom;
   std::optional<Position> axiom_position;

@@ -8,6 +8,7 @@ namespace espalier::lsystem {
 
 namespace {
 
+constexpr std::size_t kMostModules = 1'000'000;
 constexpr std::size_t kMostNested = 10'000;
 constexpr std::size_t kLongestPattern = 1000;
 constexpr std::string_view kModule = "a module (a letter, a turtle symbol or a declared name)";
@@ -120,6 +121,8 @@ std::vector<SuccessorModule> parse_successor(Cursor& cursor, Grammar& grammar) {
   Brackets brackets;
   while (!cursor.at_end() && cursor.rest()[0] != ':') {
     const std::size_t offset = cursor.at();
+    if (++grammar.modules > kMostModules)
+      throw_at(cursor.position(), "got more than {} modules in a file, expected fewer", kMostModules);
     modules.push_back(parse_successor_module(cursor, grammar));
     brackets.see(grammar.alphabet[modules.back().symbol].name, cursor, offset);
   }

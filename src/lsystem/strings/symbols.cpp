@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cctype>
 
 #include <espalier/core/error.h>
@@ -18,6 +19,13 @@ SymbolId SymbolTable::intern(std::string_view name, std::size_t arity) {
   arities_.push_back(static_cast<std::uint8_t>(arity));
   id = static_cast<SymbolId>(symbols_.size());
   return static_cast<SymbolId>(id - 1);
+}
+
+void SymbolTable::truncate(std::size_t size) {
+  for (std::size_t id = size; id < symbols_.size(); ++id)
+    ids_.find(symbols_[id].name)->second[symbols_[id].arity] = 0;
+  symbols_.resize(std::min(size, symbols_.size()));
+  arities_.resize(symbols_.size());
 }
 
 bool is_query(std::string_view name) {

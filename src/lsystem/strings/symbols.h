@@ -28,6 +28,8 @@ class SymbolTable {
   /// The id of this name and number of parameters, made if there is none.
   /// Throws InputError past 65,000 symbols or 16 parameters.
   SymbolId intern(std::string_view name, std::size_t arity);
+  /// Forgets all but the first `size` symbols.
+  void truncate(std::size_t size);
   const Symbol& operator[](SymbolId id) const { return symbols_[id]; }
   std::size_t size() const { return symbols_.size(); }
   /// Parameters of each symbol, by id.

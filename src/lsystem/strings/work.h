@@ -16,6 +16,7 @@ inline constexpr double kContextStep = 5;          // a module that a context lo
 inline constexpr double kOperation = 3;            // of an expression, on one module
 inline constexpr double kBlock = 200;              // a rule or an operation, on a block of modules
 inline constexpr double kVolume = 30;              // a point and a simple volume
+inline constexpr double kInScene = 1500;           // a knot or a leaf that may stop light
 inline constexpr double kRay = 400;                // of light
 inline constexpr double kLuaCall = 300;            // of a body of a production
 inline constexpr double kSymbol = 100;             // of the alphabet, before a string is read

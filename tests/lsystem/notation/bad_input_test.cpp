@@ -210,6 +210,7 @@ TEST(Sandbox, LimitsNameTheirPlace) {
   EXPECT_EQ(
       message_of("axiom: A\nlua:\n  function on_end() while true do end end\n", limits).find("bad.lsys:3: "),
       0u);
+  limits.lua_instructions = 1e8;
   EXPECT_EQ(
       message_of("axiom: A\nlua:\n  x = 'x' while true do x = x .. x end\n", limits).find("bad.lsys: not en"),
       0u);

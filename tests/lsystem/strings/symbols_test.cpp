@@ -23,6 +23,19 @@ TEST(SymbolTable, RefusesMoreParametersThanAModuleHas) {
   EXPECT_THROW(alphabet.intern("A", kMaxArity + 1), InputError);
 }
 
+TEST(SymbolTable, ForgetsTheLastSymbols) {
+  SymbolTable alphabet;
+  alphabet.intern("A", 0);
+  const SymbolId other = alphabet.intern("A", 1);
+  alphabet.intern("B", 0);
+  alphabet.truncate(1);
+  EXPECT_EQ(alphabet.size(), 1u);
+  EXPECT_EQ(alphabet.arities().size(), 1u);
+  EXPECT_EQ(alphabet.intern("B", 0), other);
+  EXPECT_EQ(alphabet.intern("A", 0), 0);
+  EXPECT_EQ(alphabet.intern("A", 1), 2);
+}
+
 TEST(SymbolLength, TheLongestDeclaredNameComesFirst) {
   const DeclaredSymbols declared{"Leaf", "Le"};
   EXPECT_EQ(symbol_length("Leaf(1)", declared), 4u);
