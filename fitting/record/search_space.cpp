@@ -14,13 +14,24 @@ namespace {
 
 using Range = SearchRange;
 
-/// True where `text` matches `pattern`, in which * stands for any letters and ? for one.
+/// True where `text` matches `pattern`, in which * stands for any letters and ? for one. Where letters do not
+/// match, the last * takes one more: those before it need not, so that a pattern of many takes no longer.
 bool matches(std::string_view pattern, std::string_view text) {
-  if (pattern.empty()) return text.empty();
-  if (pattern[0] == '*')
-    return matches(pattern.substr(1), text) || (!text.empty() && matches(pattern, text.substr(1)));
-  return !text.empty() && (pattern[0] == '?' || pattern[0] == text[0]) &&
-         matches(pattern.substr(1), text.substr(1));
+  std::size_t at = 0, after_star = pattern.npos, taken = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    if (at < pattern.size() && pattern[at] == '*') {
+      after_star = ++at;
+      taken = i;
+    } else if (at < pattern.size() && (pattern[at] == '?' || pattern[at] == text[i])) {
+      ++at, ++i;
+    } else if (after_star != pattern.npos) {
+      at = after_star;
+      i = ++taken;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', at) == pattern.npos;
 }
 
 /// The end of the name must be spelt, so that patterns do not reach into curves by chance.

@@ -57,6 +57,7 @@ void read_color(const toml::table& document, const std::string& source, std::str
 
 /// The identities of the presets that lead to this one by `extends`.
 using Chain = std::vector<std::string>;
+constexpr std::size_t kLongestExtending = 64;
 
 Preset load_chain(const PresetSource& source, Chain& chain);
 
@@ -92,6 +93,9 @@ Preset load_base(const toml::table& document, const PresetSource& source, Chain&
   if (std::find(chain.begin(), chain.end(), base_source.identity) != chain.end())
     throw_input_error("{}: key 'extends': got '{}', which leads back to itself, expected no cycle", where,
                       *extends);
+  if (chain.size() > kLongestExtending)
+    throw_input_error("{}: key 'extends': got a chain of more than {} presets, expected fewer", where,
+                      kLongestExtending);
   Preset base = load_chain(base_source, chain);
   const auto model = read_text(document, source.label, "model");
   if (model && !is_same_model(model_from(source.folder, *model), base.model))

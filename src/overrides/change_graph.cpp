@@ -20,13 +20,15 @@ const OverrideSet& shared_set(const std::string& name, const Overrides& override
 
 std::vector<const OverrideSet*> sharing_chain(const OverrideSet& set, const Overrides& overrides) {
   std::vector<const OverrideSet*> chain{&set};
-  std::vector<std::string> names;
   while (!chain.back()->shares.empty()) {
     const std::string& name = chain.back()->shares;
-    if (std::find(names.begin(), names.end(), name) != names.end())
+    const OverrideSet* next = &shared_set(name, overrides);
+    if (std::find(chain.begin(), chain.end(), next) != chain.end())
       throw_input_error("overrides: shared set '{}' leads back to itself, expected no cycle", name);
-    names.push_back(name);
-    chain.push_back(&shared_set(name, overrides));
+    if (chain.size() > kLongestSharing)
+      throw_input_error("overrides: got a chain of more than {} shared sets, expected fewer",
+                        kLongestSharing);
+    chain.push_back(next);
   }
   return chain;
 }

@@ -57,8 +57,8 @@ struct BranchRows {
 
 class ChangeGraph {
  public:
-  /// Throws InputError for a shared set that is unknown, or that leads back to itself, and for ranges that
-  /// overlap in too many ways.
+  /// Throws InputError for a shared set that is unknown, that leads back to itself or that shares more than
+  /// kLongestSharing others in a row, and for ranges that overlap in too many ways.
   explicit ChangeGraph(const Overrides& overrides);
   bool empty() const { return nodes_.size() == 1; }
   /// By number; what is refined from another comes after it.
@@ -89,6 +89,9 @@ class ChangeGraph {
   std::vector<Node> nodes_;  ///< the first stands above the trunks
   std::vector<BranchRows> rows_;
 };
+
+/// Of sets that share one another, in a row.
+inline constexpr std::size_t kLongestSharing = 64;
 
 /// The set, what it shares, what that shares, and so on. Throws InputError as the graph does.
 std::vector<const OverrideSet*> sharing_chain(const OverrideSet& set, const Overrides& overrides);

@@ -4,6 +4,7 @@
 
 #include <espalier/core/error.h>
 #include <espalier/core/text/one_line.h>
+#include <espalier/core/toml/toml_depth.h>
 #include <espalier/core/toml/toml_file.h>
 
 namespace espalier {
@@ -52,6 +53,9 @@ std::string read_toml_text(const fs::path& path) {
 }
 
 toml::table parse_toml(std::string_view text, const std::string& source) {
+  if (const auto line = line_of_too_deep_toml(text))
+    throw_input_error("{}:{}: got keys, tables or arrays nested more than {} deep, expected fewer levels",
+                      source, *line, kMaxTomlDepth);
   try {
     return toml::parse(text, source);
   } catch (const toml::parse_error& error) {

@@ -15,7 +15,8 @@ inline constexpr std::size_t kMaxTomlBytes = 1'000'000;
 /// directory, unreadable, empty, larger, or not text.
 std::string read_toml_text(const std::filesystem::path& path);
 
-/// Parses `text`; `source` names it in messages. Throws InputError "source:line: …" on bad syntax.
+/// Parses `text`; `source` names it in messages. Throws InputError "source:line: …" on bad syntax, and where
+/// it nests deeper than kMaxTomlDepth [toml_depth.h].
 toml::table parse_toml(std::string_view text, const std::string& source);
 
 /// "my.toml:12", for messages about this node.
