@@ -3,6 +3,7 @@
 // reading, the message for an unknown key, the growing of a study, and the tables of docs/experiments.md.
 #pragma once
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -82,15 +83,14 @@ auto unchanged(Show show) {
 template <typename Value, typename Label, typename Describe>
 std::string lost_or_changed(const std::vector<Value>& was, const std::vector<Value>& is, Label label,
                             Describe describe) {
+  std::map<std::string, const Value*> now;
+  for (const Value& value : is) now.emplace(label(value), &value);
   for (const Value& before : was) {
-    bool is_there = false;
-    for (const Value& now : is) {
-      if (label(now) != label(before)) continue;
-      is_there = true;
-      if (describe(now) != describe(before))
-        return fmt::format("got {}, expected {}", describe(now), describe(before));
-    }
-    if (!is_there) return fmt::format("got none that is '{}', expected it among them", label(before));
+    const auto found = now.find(label(before));
+    if (found == now.end())
+      return fmt::format("got none that is '{}', expected it among them", label(before));
+    if (describe(*found->second) != describe(before))
+      return fmt::format("got {}, expected {}", describe(*found->second), describe(before));
   }
   return "";
 }

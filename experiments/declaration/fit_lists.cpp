@@ -364,9 +364,10 @@ void read_groups_of_targets(const TomlSection& fits, FitsDeclaration& declaratio
   declaration.groups = groups_in(fits);
   std::vector<std::string> known = bundled_targets();
   for (const TargetDeclaration& target : declaration.targets) known.push_back(target.name);
+  std::sort(known.begin(), known.end());
   for (const auto& [group, members] : declaration.groups)
     for (const std::string& member : members)
-      if (std::find(known.begin(), known.end(), member) == known.end())
+      if (!std::binary_search(known.begin(), known.end(), member))
         throw_input_error("{}: got '{}' in group '{}', expected a target like '{}'", location(fits, "groups"),
                           member, group, closest_name(member, known));
 }

@@ -16,6 +16,8 @@ namespace {
 
 using FitsKey = ExperimentKey<FitsDeclaration>;
 
+constexpr double kMostFits = 100'000;  ///< each is a directory, and 3 kB of memory before it begins
+
 /// Of a list whose values have a name in tables.
 template <typename Value>
 auto kept_list(std::vector<Value> FitsDeclaration::*list, std::string Value::*label) {
@@ -238,6 +240,11 @@ FitsDeclaration read_fits(const TomlSection& fits) {
   if (fits.has("view")) read_front_view(fits, declaration);
   declaration.spaces = {usual_space(fits, declaration.record)};
   read_keys(fits, fits_keys(), declaration);
+  check_combinations(fits,
+                     {declaration.targets.size(), declaration.optimizers.size(),
+                      declaration.objectives.size(), declaration.spaces.size(), declaration.starts.size(),
+                      declaration.trained.size(), declaration.seeds.size()},
+                     kMostFits);
   if (declaration.exclude_truth) check_starts_beside_truth(fits, declaration);
   return declaration;
 }

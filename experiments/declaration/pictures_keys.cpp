@@ -14,6 +14,8 @@ namespace {
 
 using Declaration = PicturesDeclaration;
 
+constexpr double kMostPictures = 10'000;  ///< of one sheet; each tree is looked at as the file is read
+
 ExperimentKey<Declaration> changes_key(const std::string& key,
                                        std::vector<PictureChange> Declaration::*member) {
   const auto label = [](const PictureChange& change) { return change.label; };
@@ -124,6 +126,7 @@ PicturesDeclaration read_pictures(const TomlSection& pictures) {
                       toml_location(pictures.source, pictures.table));
   PicturesDeclaration declaration;
   read_keys(pictures, pictures_keys(), declaration);
+  check_combinations(pictures, {declaration.rows.size(), declaration.columns.size()}, kMostPictures);
   check_together(pictures, declaration);
   return declaration;
 }

@@ -8,9 +8,18 @@ std::string location(const TomlSection& section, std::string_view key) {
   return fmt::format("{}: {}", toml_location(section.source, section.node(key)), key);
 }
 
+void check_combinations(const TomlSection& section, const std::vector<std::size_t>& lengths, double most) {
+  double runs = 1;  // exact as far as it matters
+  for (const std::size_t length : lengths) runs *= static_cast<double>(length);
+  if (runs > most)
+    throw_input_error("{}: got {:.10g} runs, every combination of the lists, expected at most {:.10g}",
+                      toml_location(section.source, section.table), runs, most);
+}
+
 const toml::array& filled_array(const TomlSection& section, std::string_view key) {
   const toml::array& array = section.array(key);
   if (array.empty()) section.fail(key, "at least one value");
+  if (array.size() > kMostValues) section.fail(key, fmt::format("at most {} values", kMostValues));
   return array;
 }
 

@@ -2,6 +2,7 @@
 // and key, got and expected.
 #pragma once
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +31,13 @@ auto located(const TomlSection& section, std::string_view key, Check check) {
   return located(location(section, key), check);
 }
 
-/// Throws where the array is empty.
+/// Of one list of an experiment.
+inline constexpr std::size_t kMostValues = 10'000;
+
+/// Throws where lists of these lengths have more combinations than `most`, before these are made.
+void check_combinations(const TomlSection& section, const std::vector<std::size_t>& lengths, double most);
+
+/// Throws where the array is empty, or holds more than kMostValues.
 const toml::array& filled_array(const TomlSection& section, std::string_view key);
 
 std::int64_t whole_between(const TomlSection& section, std::string_view key, std::int64_t lower,
@@ -61,11 +68,12 @@ std::string beside_the_file(const TomlSection& section, const std::string& name)
 template <typename Value, typename Label, typename Describe>
 void expect_distinct(const TomlSection& section, std::string_view key, const std::vector<Value>& values,
                      Label label, Describe describe) {
+  std::map<std::decay_t<decltype(label(values.front()))>, std::size_t> first;
   for (std::size_t i = 0; i < values.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (label(values[i]) == label(values[j]))
-        throw_input_error("{}: got {} and {}, both labelled '{}', expected another label for one of them",
-                          location(section, key), describe(values[j]), describe(values[i]), label(values[i]));
+    if (const auto [same, is_new] = first.emplace(label(values[i]), i); !is_new)
+      throw_input_error("{}: got {} and {}, both labelled '{}', expected another label for one of them",
+                        location(section, key), describe(values[same->second]), describe(values[i]),
+                        same->first);
 }
 
 }  // namespace espalier

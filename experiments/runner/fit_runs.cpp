@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include <espalier/core/error.h>
 #include <espalier/experiments/declaration/known_truth.h>
@@ -216,12 +218,14 @@ std::vector<FitCell> all_cells(const FitsDeclaration& fits, const std::vector<Re
 }
 
 /// Names that stand for what the cell's labels say.
-void add_runs(const std::vector<FitCell>& cells, Plan& plan) {
+void add_runs(std::vector<FitCell> cells, Plan& plan) {
   plan.runs.reserve(cells.size());
-  for (const FitCell& cell : cells)
+  for (FitCell& each : cells) {
+    const auto cell = std::make_shared<const FitCell>(std::move(each));
     plan.runs.push_back(
-        {directory_name(cell.name), cell.labels,
-         [cell](const fs::path& run, const RunContext& context) { return run_cell(cell, run, context); }});
+        {directory_name(cell->name), cell->labels,
+         [cell](const fs::path& run, const RunContext& context) { return run_cell(*cell, run, context); }});
+  }
   make_names_unique(plan);
 }
 

@@ -99,8 +99,8 @@ Plan plan_growth(const GrowthDeclaration& growth) {
   for (const GrownTree& tree : trees_of(growth))
     plan.runs.push_back({name_of_run(tree),
                          {{"species", tree.species}, {"model", tree.model}},
-                         [tree, growth](const fs::path& run, const RunContext& context) {
-                           return grow_trees(tree, growth.seeds, run, context);
+                         [tree, seeds = growth.seeds](const fs::path& run, const RunContext& context) {
+                           return grow_trees(tree, seeds, run, context);
                          }});
   make_names_unique(plan);
   return plan;

@@ -67,13 +67,14 @@ Measured draw(const PicturesDeclaration& pictures, const PictureChange& change, 
 
 Plan plan_pictures(const PicturesDeclaration& pictures) {
   Plan plan{.label_columns = {"row", "column"}, .result_columns = {"stems", "leaves"}};
+  const auto shared = std::make_shared<const PicturesDeclaration>(pictures);
   for (std::size_t row = 0; row < pictures.rows.size(); ++row)
     for (std::size_t column = 0; column < pictures.columns.size(); ++column) {
       const PictureChange change = merged(pictures.rows[row], pictures.columns[column]);
       plan.runs.push_back({fmt::format("row{}-column{}", row + 1, column + 1),
                            {{"row", pictures.rows[row].label}, {"column", pictures.columns[column].label}},
-                           [pictures, change](const fs::path& run, const RunContext&) {
-                             return std::optional(draw(pictures, change, run));
+                           [shared, change](const fs::path& run, const RunContext&) {
+                             return std::optional(draw(*shared, change, run));
                            }});
     }
   return plan;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include <espalier/core/error.h>
 #include <espalier/core/toml/toml_file.h>
@@ -146,6 +148,33 @@ void read_shared(const TomlSection& sets, const ParameterTable& table, Overrides
   }
 }
 
+/// The nodes of single branches while they are read: a file may hold many, in any order.
+class SingleBranches {
+ public:
+  explicit SingleBranches(std::vector<OverrideNode>& nodes) {
+    for (OverrideNode& node : nodes) sets_.emplace(std::move(node.path), std::move(node.set));
+  }
+
+  OverrideSet& at(const BranchPath& path) { return sets_[path]; }
+
+  void put_into(std::vector<OverrideNode>& nodes) {
+    nodes.clear();
+    nodes.reserve(sets_.size());
+    for (auto& [path, set] : sets_) nodes.push_back({path, std::move(set)});
+  }
+
+ private:
+  std::map<BranchPath, OverrideSet> sets_;
+};
+
+OverrideSet& set_of_range(const TomlSection& node, const BranchPattern& pattern, Overrides& overrides) {
+  OverrideSet& set = overrides.set_of(pattern);
+  if (overrides.ranges.size() > kMostRanges)
+    throw_input_error("{}: path: got more than {} ranges of branches, expected fewer",
+                      toml_location(node.source, node.node("path")), kMostRanges);
+  return set;
+}
+
 std::string override_to_toml(const Override& entry) {
   const std::string name = quantity_name(entry.quantity);
   if (entry.quantity == Quantity::removed) return fmt::format("{} = {}\n", name, entry.number != 0);
@@ -188,6 +217,7 @@ std::vector<std::string> override_keys() { return {"branch", "shared"}; }
 void read_overrides(const TomlSection& preset, const ParameterTable& table, Overrides& overrides) {
   if (preset.has("shared")) read_shared(preset.section("shared"), table, overrides);
   if (!preset.has("branch")) return;
+  SingleBranches single(overrides.nodes);
   for (const TomlSection& node : preset.sections("branch")) {
     node.expect_only(known_keys(true, table));
     if (!node.has("path"))
@@ -195,10 +225,12 @@ void read_overrides(const TomlSection& preset, const ParameterTable& table, Over
                         toml_location(node.source, node.table));
     const BranchPattern pattern =
         parse_branch_pattern(node.text("path"), toml_location(node.source, node.node("path")));
-    OverrideSet& set = overrides.set_of(pattern);
+    const auto path = as_path(pattern);
+    OverrideSet& set = path ? single.at(*path) : set_of_range(node, pattern, overrides);
     read_set(node, pattern, table, set);
     if (node.has("shares")) check_sharing(node, set, overrides);
   }
+  single.put_into(overrides.nodes);
 }
 
 std::string overrides_to_toml(const Overrides& overrides) {

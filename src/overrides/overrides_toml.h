@@ -20,6 +20,9 @@ namespace espalier {
 /// The keys of a preset that hold overrides.
 std::vector<std::string> override_keys();
 
+/// Of one preset, with those that it extends: each branch is compared with all.
+inline constexpr std::size_t kMostRanges = 1000;
+
 /// Reads them into `overrides`: a node that is there already is changed quantity by quantity. `table` is the
 /// model's. Throws InputError with file, line, key, got and expected.
 void read_overrides(const TomlSection& preset, const ParameterTable& table, Overrides& overrides);
