@@ -7,6 +7,7 @@
 
 #include <espalier/core/error.h>
 #include <espalier/core/parallel_for.h>
+#include <espalier/core/text/text_hash.h>
 #include <espalier/fitting/branches/branch_refinement.h>
 #include <espalier/fitting/branches/branch_rounds.h>
 #include <espalier/image/measures/metrics_json.h>
@@ -142,6 +143,30 @@ void check_state(const BranchRounds& state, const ParameterTable& table, const s
 
 }  // namespace
 
+namespace {
+
+/// The last line but one of the file, behind all that it is made of.
+constexpr std::string_view kCheckBegin = ",\n \"check\": \"", kEnd = "\n}";
+constexpr std::size_t kHashSize = 16;
+
+std::string with_check(std::string json) {
+  json.resize(json.size() - kEnd.size());
+  return fmt::format("{}{}{}\"{}\n", json, kCheckBegin, text_hash(json), kEnd);
+}
+
+/// Files of earlier versions have none.
+void verify_check(const std::string& text, const std::string& source) {
+  const std::size_t at = text.rfind(kCheckBegin);
+  if (at == std::string::npos) return;
+  const std::string hash = text.substr(at + kCheckBegin.size(), kHashSize),
+                    now = text_hash(text.substr(0, at));
+  if (hash != now)
+    throw_input_error("{}: got a state that was changed since it was written (hash {}), expected {}", source,
+                      now, hash);
+}
+
+}  // namespace
+
 BranchRounds stored(BranchRounds state, const ParameterTable& table) {
   const std::vector<std::size_t> rows = rows_of_all(table);
   for (Solution& copy : state.copies) {
@@ -172,12 +197,13 @@ std::string branch_rounds_to_json(const BranchRounds& state, const std::string& 
                              {"score", copy.score},
                              {"overrides", overrides_to_toml(copy.overrides)}});
   for (const RoundRow& row : state.history) json["history"].push_back(row_to_json(row));
-  return json.dump(1) + "\n";
+  return with_check(json.dump(1));
 }
 
 BranchRounds branch_rounds_from_json(const std::string& text, const ParameterTable& table,
                                      const std::string& source) {
   try {
+    verify_check(text, source);
     const nlohmann::json json = nlohmann::json::parse(text);
     BranchRounds state{.rounds = json.at("rounds"),
                        .finish_from = json.value("finish_from", -1L),

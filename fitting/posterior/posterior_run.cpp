@@ -13,6 +13,7 @@
 #include <espalier/fitting/posterior/simulations/silhouette_summaries.h>
 #include <espalier/image/pictures/decode.h>
 #include <espalier/image/pictures/picture.h>
+#include <espalier/machine/directory_lock.h>
 #include <espalier/models/models.h>
 
 namespace espalier {
@@ -186,6 +187,7 @@ PosteriorResult compute_posterior(const PosteriorRequest& request, const Mask& m
   std::error_code error;
   fs::create_directories(directory, error);
   if (error) throw_input_error("{}: cannot be made: {}", directory.string(), error.message());
+  const DirectoryLock lock(directory);
   ReferenceTable table = extended_table(request, prior, path, threads, progress);
   PosteriorResult result{.unknowns = {}, .species = {}, .check = {}, .simulations = table.size()};
   if (table.size() < request.simulations) return result;

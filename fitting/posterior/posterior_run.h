@@ -40,7 +40,7 @@ void check_request(const PosteriorRequest& request);
 /// `mask`: the tree of the picture at any size. Extends the table first, which is kept where `progress` stops
 /// it: then the result is not complete, nothing else is written, and the same call goes on. Where the check
 /// finds that no plant of the prior makes such a picture, the files hold the prior. Throws InputError for
-/// what cannot be read or written.
+/// what cannot be read or written, and where another process works in the directory.
 PosteriorResult compute_posterior(const PosteriorRequest& request, const Mask& mask,
                                   const std::filesystem::path& directory, int threads,
                                   const TableProgress& progress);

@@ -10,6 +10,7 @@
 #include <espalier/fitting/record/fit_options.h>
 #include <espalier/fitting/record/fit_record.h>
 #include <espalier/fitting/record/option_values.h>
+#include <espalier/fitting/record/record_check.h>
 
 namespace espalier {
 
@@ -64,6 +65,14 @@ std::string option_to_toml(const FitOption& option, const OptionValue& value, st
   return (section == before ? "" : section_head(section)) + line_of(option, value);
 }
 
+std::string files_to_toml(const FitRecord& record) {
+  if (record.files.empty()) return "";
+  std::string text = "\n[files]  # that the run keeps, with hashes\n";
+  for (const auto& [name, hash] : record.files)
+    text += fmt::format("{} = {}\n", quote_toml(name), quote_toml(hash));
+  return text;
+}
+
 std::string versions_to_toml(const FitRecord& record) {
   std::string text = "\n[versions]\n";
   for (const auto& [name, version] : record.versions)
@@ -108,7 +117,7 @@ void check_format(const RecordFile& file) {
 
 /// Keys that files have besides those of options.
 std::vector<std::string> other_keys() {
-  std::vector<std::string> keys{"format"};
+  std::vector<std::string> keys{"format", kCheckKey};
   for (const char* key : kOutcomeKeys) keys.push_back(std::string("outcome.") + key);
   return keys;
 }
@@ -125,7 +134,8 @@ void check_keys(const RecordFile& file, const toml::table& table, const std::str
                 const std::vector<std::string>& known) {
   for (const auto& [key, node] : table) {
     const std::string path = prefix + std::string(key.str());
-    if (std::find(known.begin(), known.end(), path) != known.end() || path == "versions") continue;
+    if (std::find(known.begin(), known.end(), path) != known.end() || path == "versions" || path == "files")
+      continue;
     const auto holds = [&](const std::string& one) { return one.starts_with(path + "."); };
     const bool is_section = std::any_of(known.begin(), known.end(), holds);
     if (!is_section)
@@ -162,9 +172,10 @@ std::optional<FitOutcome> read_outcome(const TomlSection& root) {
                     read_stop(outcome)};
 }
 
-void read_versions(const TomlSection& versions, FitRecord& record) {
-  for (const auto& [name, version] : versions.table)
-    record.versions[std::string(name.str())] = versions.text(name.str());
+std::map<std::string, std::string> texts_of(const TomlSection& section) {
+  std::map<std::string, std::string> texts;
+  for (const auto& [name, text] : section.table) texts[std::string(name.str())] = section.text(name.str());
+  return texts;
 }
 
 void check_ends(const FitBudget& budget) {
@@ -195,7 +206,7 @@ void check_record(const FitRecord& record) {
 }
 
 std::string record_to_toml(const FitRecord& record, const std::optional<FitOutcome>& outcome) {
-  std::string text = fmt::format("{}format = {}\n", kHead, kFormat);
+  std::string text;
   std::string_view section;
   for (const FitOption& option : fit_options()) {
     const OptionValue value = get_value(option, record);
@@ -203,12 +214,14 @@ std::string record_to_toml(const FitRecord& record, const std::optional<FitOutco
     if (!is_left_out && !std::holds_alternative<std::monostate>(value))
       text += option_to_toml(option, value, section);
   }
-  return text + versions_to_toml(record) + (outcome ? outcome_to_toml(*outcome) : "");
+  text += files_to_toml(record) + versions_to_toml(record) + (outcome ? outcome_to_toml(*outcome) : "");
+  return with_check(fmt::format("{}format = {}\n", kHead, kFormat), text);
 }
 
 RecordedRun read_record(const std::filesystem::path& path) {
   const std::string source = path.string();
-  const RecordFile file{parse_toml(read_toml_text(path), source), source};
+  const std::string text = read_toml_text(path);
+  const RecordFile file{parse_toml(text, source), source};
   check_format(file);
   check_keys(file, file.table, "", known_keys());
   FitRecord record;
@@ -223,7 +236,10 @@ RecordedRun read_record(const std::filesystem::path& path) {
     }
     check_record(record);
   });
-  read_versions(file.root().section("versions"), record);
+  record.versions = texts_of(file.root().section("versions"));
+  if (file.root().has("files")) record.files = texts_of(file.root().section("files"));
+  verify_check(text, source);  // what is wrong by itself has been told by now
+  verify_files(record.files, path.parent_path());
   return {record, read_outcome(file.root())};
 }
 

@@ -68,6 +68,7 @@ struct FitRecord {
   bool any_leaf_size = false;       ///< of leafy trees: leaves may be larger than those of species are
   double freedom = kFreedomOfKind;  ///< of single branches
   std::map<std::string, std::string> versions;  ///< of the program and its libraries
+  std::map<std::string, std::string> files;     ///< that a run keeps, from its directory on, and hashes
 };
 
 /// What a finished run adds to its record.
@@ -90,7 +91,8 @@ struct RecordedRun {
 };
 
 /// Reads run.toml and checks it; files that it names from its directory on, which the run keeps, have that
-/// before them. Throws InputError with file, line, key, got and expected.
+/// before them. Throws InputError with file, line, key, got and expected, also where the record, or a file
+/// that the run keeps, was changed since it was written [record_check.h].
 RecordedRun read_record(const std::filesystem::path& path);
 
 }  // namespace espalier

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include <espalier/core/files.h>
+#include <espalier/core/text/text_hash.h>
+#include <espalier/core/text/utf8.h>
 #include <espalier/fitting/record/start_names.h>
 #include <espalier/fitting/run/run_files.h>
 #include <espalier/models/models.h>
@@ -30,13 +32,18 @@ bool is_there_as_it_is(const RunFile& file, const fs::path& directory) {
 class Keeper {
  public:
   Keeper(const FitRecord& record, const Model& model) : kept_{record, {}} {
+    kept_.record.files.clear();
     keep_model(model);
     FitRecord& named = kept_.record;
     named.start = start_with(record.start, [&](const std::string& name) { return keep_preset(name); });
     if (!named.species.empty()) named.species = keep_preset(named.species);
   }
 
-  KeptFiles take() { return std::move(kept_); }
+  KeptFiles take() {
+    for (const RunFile& file : kept_.files)
+      kept_.record.files[as_utf8(file.name.string())] = text_hash(file.text);
+    return std::move(kept_);
+  }
 
  private:
   void add(const fs::path& name, std::string text) {
@@ -46,7 +53,8 @@ class Keeper {
   }
 
   void keep_model(const Model& model) {
-    for (const fs::path& file : model.files()) add(kModelFolder / file.filename(), read_file(file));
+    for (const fs::path& file : model.files())
+      add(kModelFolder / as_utf8(file.filename().string()), read_file(file));
     is_model_kept_ = !kept_.files.empty();
     if (is_model_kept_) kept_.record.model = kept_.files.front().name.string();
   }
@@ -69,7 +77,7 @@ class Keeper {
     preset.grown_into.clear();  // a start has values and overrides alone
     if (is_model_kept_) preset.model = (".." / fs::path(kept_.record.model)).string();
     std::string text = preset_to_toml(preset, table);
-    const fs::path file = free_name(fs::path(name).stem(), text);
+    const fs::path file = free_name(as_utf8(fs::path(name).stem().string()), text);
     add(file, std::move(text));
     return file.string();
   }

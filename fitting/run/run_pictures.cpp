@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include <cstdint>
-
 #include <espalier/core/field_error.h>
 #include <espalier/core/files.h>
+#include <espalier/core/text/text_hash.h>
+#include <espalier/core/text/utf8.h>
 #include <espalier/fitting/run/run_pictures.h>
 
 namespace espalier {
@@ -50,15 +50,13 @@ fs::path found_picture(const ViewRecord& view, const fs::path& directory, std::s
 
 FileContent content_of(const fs::path& file) {
   const std::string bytes = read_file(file);
-  std::uint64_t hash = 0xcbf29ce484222325ull;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ull;
-  return {static_cast<std::int64_t>(bytes.size()), fmt::format("{:016x}", hash)};
+  return {static_cast<std::int64_t>(bytes.size()), text_hash(bytes)};
 }
 
 std::string kept_picture_name(const ViewRecord& view, std::size_t index) {
   if (!view.kept_as.empty()) return view.kept_as.string();
   const std::string number = index == 0 ? "" : fmt::format("_{}", index + 1);
-  return "picture" + number + view.picture.extension().string();
+  return "picture" + number + as_utf8(view.picture.extension().string());
 }
 
 void find_pictures(FitRecord& record, const fs::path& directory, const std::vector<std::string>& given) {

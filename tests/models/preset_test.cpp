@@ -533,5 +533,16 @@ TEST(Models, TwoPathsOfOneFileAreOneModel) {
   EXPECT_FALSE(is_same_model("weber_penn", file));
 }
 
+TEST(Preset, ExtendsAChainOfBoundedLength) {
+  constexpr int kLongest = 64;
+  folder.write("0.toml", "extends = \"acer\"\nflare = 0.125\n");
+  const auto name = [](int i) { return std::to_string(i) + ".toml"; };
+  std::string last;
+  for (int i = 1; i < kLongest; ++i) last = folder.write(name(i), "extends = \"" + name(i - 1) + "\"\n");
+  EXPECT_NO_THROW(load_preset(last));
+  const std::string too_long = folder.write(name(kLongest), "extends = \"" + name(kLongest - 1) + "\"\n");
+  EXPECT_THAT(loading_error(too_long), HasSubstr("got a chain of more than 64 presets, expected fewer"));
+}
+
 }  // namespace
 }  // namespace espalier

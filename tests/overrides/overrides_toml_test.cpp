@@ -219,5 +219,43 @@ TEST(OverridesTree, CountsTheBranchesOfRangesAndCallsThoseOfNoneDormant) {
             "#     0/3..7/2: size = 4; inherits length × 2 from 0/3..7 [dormant]\n");
 }
 
+/// s0 shares s1, and so on up to s<last>.
+std::string chain_of_sets(std::size_t last) {
+  std::string text;
+  for (std::size_t i = 0; i < last; ++i) text += fmt::format("[shared.s{}]\nshares = \"s{}\"\n", i, i + 1);
+  return text + fmt::format("[shared.s{}]\nlength = 2\n", last);
+}
+
+TEST(OverridesToml, SetsShareOneAnotherInARowOfBoundedLength) {
+  const Overrides overrides = read(chain_of_sets(kLongestSharing));
+  EXPECT_EQ(resolved_overrides(overrides.shared.at("s0"), overrides).size(), 1u);
+  EXPECT_THAT(
+      [] { read(chain_of_sets(kLongestSharing + 1)); },
+      testing::ThrowsMessage<InputError>("tree.toml:2: overrides: got a chain of more than 64 shared sets, "
+                                         "expected fewer"));
+}
+
+std::string ranges(std::size_t count) {
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i) text += fmt::format("[[branch]]\npath = \"0/{}..{}\"\n", i, i + 2);
+  return text;
+}
+
+TEST(OverridesToml, RangesAreOfBoundedNumber) {
+  EXPECT_EQ(read(ranges(kMostRanges)).ranges.size(), kMostRanges);
+  EXPECT_THAT([] { read(ranges(kMostRanges + 1)); }, testing::ThrowsMessage<InputError>(testing::HasSubstr(
+                                                         "tree.toml:2002: path: got more than 1000 ranges")));
+}
+
+TEST(OverridesToml, BranchesMayComeInAnyOrderAndMoreThanOnce) {
+  const Overrides overrides = read(
+      "[[branch]]\npath = \"0/7\"\nlength = 2\n[[branch]]\npath = \"0/3\"\nradius = 1\n"
+      "[[branch]]\npath = \"0/7\"\nradius = 3\n[[branch]]\npath = \"0\"\nlength = 4\n");
+  ASSERT_EQ(overrides.nodes.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(overrides.nodes.begin(), overrides.nodes.end(),
+                             [](const OverrideNode& a, const OverrideNode& b) { return a.path < b.path; }));
+  EXPECT_EQ(overrides.find({0, 7})->set.overrides.size(), 2u);
+}
+
 }  // namespace
 }  // namespace espalier

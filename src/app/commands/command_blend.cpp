@@ -26,6 +26,8 @@ namespace espalier {
 
 namespace {
 
+constexpr double kFarthest = 1000;  ///< of a point; species lie within 10
+
 struct BlendOptions {
   std::string a, b, t, at, output, compare;
   std::vector<std::string> strip;
@@ -50,6 +52,10 @@ Eigen::VectorXd parse_point(const std::string& text) {
     rest.remove_prefix(comma + 1);
   }
   numbers.push_back(parse_number(rest, "--at", text));
+  for (const double number : numbers)
+    if (!(std::abs(number) <= kFarthest))
+      throw_input_error("--at: got '{}', expected coordinates from -{:g} to {:g}", text, kFarthest,
+                        kFarthest);
   return Eigen::Map<Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
 }
 
@@ -166,6 +172,8 @@ void check_options(const BlendOptions& options) {
                       options.a.empty() ? "nothing" : "one preset");
   if (!options.at.empty() && (!options.a.empty() || pictures))
     throw_input_error("--at: got presets or pictures too, expected a point and -o FILE only");
+  if (!options.at.empty() && !options.t.empty())
+    throw_input_error("--at: got --t too, expected one of the two");
   if (options.at.empty() && options.t.empty() && !pictures)
     throw_input_error("blend: got no --t, expected --t, --strip or --compare");
   if ((!options.at.empty() || !options.t.empty()) && options.output.empty())
@@ -203,7 +211,6 @@ void add_blend_command(CLI::App& app) {
   command
       ->add_option("--seed", options->seed,
                    "seed of the trees of pictures, and of the one that a growth budget is kept to")
-      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->callback([options] { run_blend(*options); });
 }

@@ -99,12 +99,29 @@ FitRecord new_record(const FitArguments& arguments) {
   return record;
 }
 
+std::string version_in(const std::map<std::string, std::string>& versions) {
+  const auto of = [&](const char* name) {
+    const auto found = versions.find(name);
+    return found == versions.end() ? "unknown" : found->second;
+  };
+  return fmt::format("{} (commit {})", of("espalier"), of("commit"));
+}
+
+/// Another program may grow, draw and search otherwise.
+void warn_of_another_program(const FitArguments& arguments, const FitRecord& record) {
+  const std::string then = version_in(record.versions), now = version_in(recorded_versions());
+  if (then == now || arguments.quiet) return;
+  print_warning(fmt::format("{}: was run by espalier {}, and this is {}: its trees may come out otherwise",
+                            arguments.resume + arguments.repeat, then, now));
+}
+
 /// The record in a run's directory, with the limits of this command line where it gives any: time or
 /// evaluations, given alone, leave no limit to the other.
 FitRecord resumed_record(const FitArguments& arguments) {
   const RecordWords& words = arguments.words;
   check_run_directory(arguments.resume);
   FitRecord record = read_record(fs::path(arguments.resume) / "run.toml").record;
+  warn_of_another_program(arguments, record);
   find_pictures(record, arguments.resume, arguments.pictures);
   if (words.has("budget.evaluations") || words.has("budget.seconds"))
     record.budget.evaluations = 0, record.budget.seconds = 0;
@@ -116,6 +133,7 @@ FitRecord resumed_record(const FitArguments& arguments) {
 FitRecord repeated_record(const FitArguments& arguments) {
   check_run_directory(arguments.repeat);
   auto [record, outcome] = read_record(fs::path(arguments.repeat) / "run.toml");
+  warn_of_another_program(arguments, record);
   find_pictures(record, arguments.repeat, arguments.pictures);
   for (ViewRecord& view : record.views) view.kept_as.clear();  // it is a run of its own
   if (outcome)

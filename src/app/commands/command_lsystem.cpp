@@ -62,11 +62,6 @@ Plant plant_of(lsystem::Derivation& derivation) {
   return plant;
 }
 
-/// CLI11 would read -1 as the largest number there is.
-std::string reject_negative(const std::string& text) {
-  return text.starts_with('-') ? fmt::format("got {}, expected a whole number from 0", text) : "";
-}
-
 GrowthFrames frames_of(const LsystemOptions& options) {
   return {options.frames.value_or(1), options.frame_seconds, options.output};
 }
@@ -79,6 +74,8 @@ void check_options(const LsystemOptions& options) {
                       options.print_string ? "both" : "neither");
   if (options.steps && *options.steps < 0)
     throw_input_error("--steps {}: expected 0 or more", *options.steps);
+  if (!(options.limits.lua_instructions >= 0))
+    throw_input_error("--max-lua {}: expected 0 or more", options.limits.lua_instructions);
   if (options.frames) check_growth_frames(frames_of(options));
   if (options.print_string) return;
   check_view(options.view);
@@ -164,9 +161,7 @@ void add_lsystem_command(CLI::App& app) {
                     "list the bundled L-systems, with what each is, as without a file");
   command->add_flag("--json", options->json, "list as JSON");
   command->add_option("--steps", options->steps, "derivation steps; else those the file says");
-  command->add_option("--seed", options->seed, "seed of the random numbers")
-      ->check(reject_negative)
-      ->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the random numbers")->capture_default_str();
   command->add_option("--set", options->assignments, "change a parameter: name=value (repeatable)")
       ->allow_extra_args(false);
   command
@@ -188,7 +183,6 @@ void add_lsystem_command(CLI::App& app) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option("--max-modules", options->limits.modules, "longest string that may be derived")
-      ->check(reject_negative)
       ->capture_default_str();
   command
       ->add_option("--max-lua", options->limits.lua_instructions,

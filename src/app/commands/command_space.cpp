@@ -181,9 +181,7 @@ void add_space_command(CLI::App& app) {
   command->add_option("--tile", options->tile_px, "side of a tree of the sheet, px")
       ->check(CLI::Range(16, 2048))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "seed of the trees of the sheet")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the trees of the sheet")->capture_default_str();
   command->add_option("--save", options->save, "write the space to this TOML file");
   command->callback([options] { run_space(*options); });
 }

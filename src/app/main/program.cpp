@@ -21,6 +21,7 @@
 #include <espalier/app/main/wrong_words.h>
 #include <espalier/app/options/messages.h>
 #include <espalier/app/options/option_names.h>
+#include <espalier/app/options/plain_numbers.h>
 #include <espalier/app/version.h>
 #include <espalier/core/field_error.h>
 #include <espalier/machine/processors.h>
@@ -108,6 +109,7 @@ int run_program(int argc, const char* const* argv) {
   app.formatter(std::make_shared<HelpFormat>());
   app.set_version_flag("--version", version_text, "Print the version, the commit and the libraries");
   add_commands(app);
+  demand_plain_numbers(app);
   add_examples(app);
   if (processors() < runnable_processors())
     omp_set_num_threads(std::min(omp_get_max_threads(), processors()));

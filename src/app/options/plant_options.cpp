@@ -16,11 +16,6 @@ namespace espalier {
 
 namespace {
 
-/// CLI11 would read -1 as the largest number there is.
-std::string reject_negative(const std::string& text) {
-  return text.starts_with('-') ? "got " + text + ", expected a whole number from 0" : "";
-}
-
 /// "[0.4, 1, 0.2, 1]" or "0.4,1,0.2,1".
 std::vector<double> parse_numbers(const std::string& text) {
   std::string plain = text;
@@ -58,8 +53,7 @@ void add_plant_options(CLI::App& command, PlantOptions& options) {
           "a bundled preset (see: espalier species), a TOML file, an .lsys file, or a bundled L-system with "
           "its ending, such as fern.lsys (see: espalier lsystem --list)")
       ->required();
-  command.add_option("--seed", options.seed, "seed of the random numbers (default: the preset's, or 1)")
-      ->check(reject_negative);
+  command.add_option("--seed", options.seed, "seed of the random numbers (default: the preset's, or 1)");
   command
       .add_option(
           "--set", options.assignments,

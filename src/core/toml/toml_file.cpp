@@ -4,6 +4,7 @@
 
 #include <espalier/core/error.h>
 #include <espalier/core/text/one_line.h>
+#include <espalier/core/text/utf8.h>
 #include <espalier/core/toml/toml_depth.h>
 #include <espalier/core/toml/toml_file.h>
 
@@ -80,7 +81,7 @@ std::string describe_toml(const toml::node& node) {
 
 std::string quote_toml(std::string_view text) {
   std::string quoted = "\"";
-  for (const char c : text) {
+  for (const char c : as_utf8(text)) {
     const auto code = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\')
       quoted += {'\\', c};

@@ -25,7 +25,8 @@ std::string toml_location(const std::string& source, const toml::node& node);
 /// A value as a message shows it: "'tree'", "2.5", "an array", "a table".
 std::string describe_toml(const toml::node& node);
 
-/// A basic string with its quotes, any character escaped where TOML demands it.
+/// A basic string with its quotes, any character escaped where TOML demands it. Bytes that are no UTF-8, as
+/// names of files may hold, are written as the four characters `\xff`.
 std::string quote_toml(std::string_view text);
 
 }  // namespace espalier

@@ -232,7 +232,7 @@ TEST(FitCommand, ARecordThatWasSpoiledIsToldItsFileLineAndKey) {
   text.replace(text.find(line), line.size(), "\nsize_px = 8");
   std::ofstream(run / "run.toml") << text;
   expect_error("--resume '" + run.string() + "'",
-               "run.toml:21: target.size_px: got 8, expected a whole number 16..4096 (px)");
+               "run.toml:22: target.size_px: got 8, expected a whole number 16..4096 (px)");
 }
 
 TEST(FitCommand, AcceptsMinusZeroAsZero) {

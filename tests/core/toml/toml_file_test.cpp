@@ -85,5 +85,10 @@ TEST(TomlFile, QuotedTextReadsBackToItself) {
   }));
 }
 
+TEST(TomlFile, QuotedBytesThatAreNoUtf8AreReadAsTheyAreShown) {
+  const toml::table table = parse_toml("text = " + quote_toml("a\xff\\.png"), "quoted");
+  EXPECT_EQ(table["text"].value<std::string>(), "a\\xff\\.png");
+}
+
 }  // namespace
 }  // namespace espalier

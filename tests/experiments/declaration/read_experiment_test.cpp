@@ -274,5 +274,36 @@ TEST(ReadExperiment, WordsAndCommentsDoNotMakeAnotherExperiment) {
   EXPECT_FALSE(same_runs(kFits, kFits + "seeds = 2\n"));
 }
 
+/// Of whole numbers from 0.
+std::string list_of(int count) {
+  std::string text = "[0";
+  for (int i = 1; i < count; ++i) text += "," + std::to_string(i);
+  return text + "]";
+}
+
+TEST(ReadExperiment, RunsAreCountedBeforeTheyAreMade) {
+  const std::string ten = "optimizers = ['all']\nobjectives = ['iou', 'dice', 'gap_iou']\nseeds = ";
+  EXPECT_EQ(error_of(kFits + ten + "100"), "no error");
+  EXPECT_THAT(error_of(kFits + ten + "10000"),
+              testing::ContainsRegex(
+                  "study.toml:1: got 1[0-9]+ runs, every combination of the lists, expected at most 100000"));
+}
+
+TEST(ReadExperiment, ListsAreOfBoundedLength) {
+  EXPECT_EQ(error_of(kFits + "seeds = " + list_of(10'000)), "no error");
+  EXPECT_THAT(error_of(kFits + "seeds = " + list_of(10'001)),
+              HasSubstr("study.toml:4: seeds: got an array of 10001, expected at most 10000 values"));
+}
+
+TEST(ReadExperiment, SheetsHaveABoundedNumberOfPictures) {
+  std::string rows, columns;
+  for (int i = 0; i < 101; ++i) {
+    rows += "[[pictures.rows]]\nlabel = 'r" + std::to_string(i) + "'\n";
+    columns += "[[pictures.columns]]\nlabel = 'c" + std::to_string(i) + "'\n";
+  }
+  EXPECT_THAT(error_of("[pictures]\nspecies = 'palm'\n" + rows + columns),
+              HasSubstr("study.toml:1: got 10201 runs"));
+}
+
 }  // namespace
 }  // namespace espalier

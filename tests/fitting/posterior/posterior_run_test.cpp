@@ -10,6 +10,7 @@
 #include <espalier/fitting/posterior/posterior_run.h>
 #include <espalier/fitting/posterior/simulations/plant_simulator.h>
 #include <espalier/fitting/posterior/simulations/reference_table.h>
+#include <espalier/machine/directory_lock.h>
 #include <espalier/models/models.h>
 
 #include "support/posterior_table.h"
@@ -211,6 +212,13 @@ TEST(PosteriorRun, RefusesTooFewSimulationsAndHeightsThatAreNone) {
   request = {};
   request.samples = 0;
   EXPECT_EQ(field(request), "samples");
+}
+
+TEST(PosteriorRun, IsOneProcesssAtATime) {
+  const fs::path directory = fresh_folder("locked_posterior");
+  const DirectoryLock lock(directory);
+  EXPECT_THAT([&] { compute_posterior(small_request(), tree_of(1), directory, 1, always); },
+              testing::ThrowsMessage<InputError>(HasSubstr("another process works in")));
 }
 
 }  // namespace

@@ -47,6 +47,12 @@ RecordedRun through_file(const std::string& text) {
   return read_record(path);
 }
 
+/// As people leave it who change a record on purpose.
+std::string without_check(std::string text) {
+  const std::size_t line = text.find("check = ");
+  return text.erase(line, text.find('\n', line) + 1 - line);
+}
+
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
@@ -109,7 +115,8 @@ TEST(FitRecord, NamesFileAndKeyOfWhatIsMissingOrWrong) {
 
 TEST(FitRecord, OfEarlierVersionsHasNoBranchRounds) {
   const std::string text = record_to_toml(full_record(), {});
-  std::string older = replaced(replaced(text, "branch_rounds = 17", ""), "train_to_target = true\n", "");
+  std::string older =
+      replaced(replaced(without_check(text), "branch_rounds = 17", ""), "train_to_target = true\n", "");
   older = replaced(replaced(older, "finish_from = 9", ""), "stages = \"search,branches,finish\"", "");
   const FitRecord record = through_file(older).record;
   EXPECT_EQ(record.budget.branch_rounds, 0);
@@ -258,7 +265,7 @@ stopped_by = "time"
 TEST(FitRecord, IsWrittenAsEver) {
   FitRecord record = full_record();
   record.space = "species:2";
-  EXPECT_EQ(record_to_toml(record, FitOutcome{77, 5, 3, FitStop::time}), kWholeRecord);
+  EXPECT_EQ(without_check(record_to_toml(record, FitOutcome{77, 5, 3, FitStop::time})), kWholeRecord);
 }
 
 TEST(FitRecord, RefusesRoundsWithoutEndAndUnknownKinds) {

@@ -231,5 +231,24 @@ TEST(SearchSpace, RefusesToSearchNothing) {
   EXPECT_THAT(error_of({{"g_scale"}, {{"g_scale", 5.0}}}), HasSubstr("expected one left to search"));
 }
 
+TEST(SearchSpaceOf, PatternsMatchAsTheyAlwaysDid) {
+  const auto count = [](const std::string& pattern) { return space_of({pattern}).free.size(); };
+  EXPECT_EQ(count("length[1]"), 1u);
+  EXPECT_EQ(count("l?ngth[1]"), 1u);
+  EXPECT_EQ(count("*ngth[1]*"), 1u);
+  EXPECT_EQ(count("l*n*t*1*"), count("l**n*t***1*"));
+  EXPECT_EQ(count("*v[1]"), count("*?v[1]"));
+  EXPECT_EQ(count("*[1]"), count("*?*[1]"));
+  EXPECT_THROW(space_of({"length[1]?"}), FieldError);
+  EXPECT_THROW(space_of({"?length[1]"}), FieldError);
+}
+
+/// Each star more doubled the time: thirty of them never ended.
+TEST(SearchSpaceOf, PatternsOfManyStarsAreNoPuzzle) {
+  std::string pattern;
+  for (int i = 0; i < 300; ++i) pattern += "*?*";
+  EXPECT_THROW(space_of({pattern + "!"}), FieldError);
+}
+
 }  // namespace
 }  // namespace espalier

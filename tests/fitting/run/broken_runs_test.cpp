@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <espalier/core/error.h>
+#include <espalier/core/random.h>
 #include <espalier/fitting/run/fit.h>
 #include <espalier/machine/directory_lock.h>
 
@@ -134,6 +135,68 @@ TEST_F(BrokenRun, IsOneProcesssAtATime) {
   const std::string before = read_text_file(run / "run.toml");
   EXPECT_THAT(refusal(), HasSubstr("another process works in"));
   EXPECT_EQ(read_text_file(run / "run.toml"), before);
+}
+
+/// A file with one other bit, the `draw`-th of a fixed sequence.
+void flip_a_bit(const fs::path& file, std::uint64_t draw) {
+  std::string bytes = read_text_file(file);
+  const std::size_t bit = child_key(root_key(17), draw).value % (8 * bytes.size());
+  bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << bit % 8));
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+TEST_F(BrokenRun, WithAnyOtherBitIsRefusedOrEndsTheSame) {
+  for (const char* name : {"run.toml", "branches.json", "evaluations.bin", "picture.png", "target.png"})
+    for (std::uint64_t draw = 0; draw < 8; ++draw) {
+      SCOPED_TRACE(fmt::format("{}, {}", name, draw));
+      fs::remove_all(run);
+      fs::copy(whole, run, fs::copy_options::recursive);
+      flip_a_bit(run / name, draw);
+      const std::string refused = refusal();
+      EXPECT_EQ(refused.find('\n'), std::string::npos);
+      if (refused == "none") expect_same_result();
+    }
+}
+
+TEST_F(BrokenRun, WithAnotherObjectiveInItsRecordIsRefused) {
+  std::string text = read_text_file(run / "run.toml");
+  const std::size_t at = text.find("0.5*iou");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 7, "0.4*iou");
+  std::ofstream(run / "run.toml", std::ios::binary) << text;
+  EXPECT_THAT(refusal(), HasSubstr("check: got a record that was changed since the run wrote it"));
+}
+
+/// Of the user's own files, whose names are no UTF-8.
+FitRecord record_of_latin1_names(const fs::path& folder) {
+  FitRecord record = refined_record();
+  const fs::path picture = folder / "b\xe4um.p\xffg", start = folder / "b\xe4um.toml";
+  fs::copy_file(record.views[0].picture, picture);
+  std::ofstream(start) << "extends = \"quaking_aspen\"\nflare = 0.125\n";
+  record.views[0].picture = picture;
+  record.start = start;
+  record.budget = {20, 0, 0, 0};
+  return record;
+}
+
+TEST_F(BrokenRun, OfNamesThatAreNoUtf8GoesOn) {
+  const fs::path folder = fresh_folder("latin1");
+  run = folder / "r\xfcn";
+  fit(record_of_latin1_names(folder), run);
+  const std::string best = read_text_file(run / "best.toml");
+  EXPECT_THAT(best, HasSubstr("b\\\\xe4um"));
+  fs::remove(folder / "b\xe4um.p\xffg");
+  fs::remove(folder / "b\xe4um.toml");
+  go_on();
+  EXPECT_EQ(read_text_file(run / "best.toml"), best);
+}
+
+TEST_F(BrokenRun, WithAnotherPresetThanItWasBegunFromIsRefused) {
+  const fs::path folder = fresh_folder("other_preset");
+  run = folder / "run";
+  fit(record_of_latin1_names(folder), run);
+  std::ofstream(run / "presets/b\\xe4um.toml", std::ios::app) << "# changed\n";
+  EXPECT_THAT(refusal(), HasSubstr("got a file that was changed since the run began"));
 }
 
 }  // namespace
