@@ -535,6 +535,7 @@ TEST(Models, TwoPathsOfOneFileAreOneModel) {
 
 TEST(Preset, ExtendsAChainOfBoundedLength) {
   constexpr int kLongest = 64;
+  const PresetFolder folder;
   folder.write("0.toml", "extends = \"acer\"\nflare = 0.125\n");
   const auto name = [](int i) { return std::to_string(i) + ".toml"; };
   std::string last;

@@ -31,11 +31,23 @@ bool is_word(std::string_view text) {
   return begin != "nan" && begin != "inf";
 }
 
+/// CLI11 takes a 0 in front for an octal number.
+std::string without_zeros(std::string_view text) {
+  const std::string_view sign = text.starts_with('-') ? "-" : "";
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  while (text.size() > 1 && text[0] == '0') text.remove_prefix(1);
+  return std::string(sign).append(text);
+}
+
 template <bool (*is_valid)(std::string_view)>
-void demand(CLI::Option& option, const char* expected) {
-  option.check([expected](const std::string& text) {
-    return is_valid(text) || is_word(text) ? "" : fmt::format("got '{}', expected {}", text, expected);
-  });
+void demand(CLI::Option& option, const char* expected, bool is_whole_number) {
+  const auto read = [=](std::string& text) -> std::string {
+    if (is_word(text)) return "";
+    if (!is_valid(text)) return fmt::format("got '{}', expected {}", text, expected);
+    if (is_whole_number) text = without_zeros(text);
+    return "";
+  };
+  option.transform(CLI::Validator(read, "", ""));
 }
 
 }  // namespace
@@ -43,9 +55,9 @@ void demand(CLI::Option& option, const char* expected) {
 void demand_plain_numbers(CLI::App& app) {
   for (CLI::Option* option : app.get_options()) {
     const std::string type = option->get_type_name();
-    if (type.starts_with("UINT")) demand<is_whole<std::uint64_t>>(*option, "a whole number from 0");
-    if (type.starts_with("INT")) demand<is_whole<std::int64_t>>(*option, "a whole number");
-    if (type.starts_with("FLOAT")) demand<is_number>(*option, "a number");
+    if (type.starts_with("UINT")) demand<is_whole<std::uint64_t>>(*option, "a whole number from 0", true);
+    if (type.starts_with("INT")) demand<is_whole<std::int64_t>>(*option, "a whole number", true);
+    if (type.starts_with("FLOAT")) demand<is_number>(*option, "a number", false);
   }
   for (CLI::App* command : app.get_subcommands({})) demand_plain_numbers(*command);
 }

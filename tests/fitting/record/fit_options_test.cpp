@@ -159,6 +159,8 @@ TEST(FitExecution, AFileIsToldOfAMissingKeyUnlessEarlierVersionsHadNone) {
     Spoiled spoiled = with_value(option, "1");
     const std::string line = "\n" + last_name(option) + " = 1";
     spoiled.text.erase(spoiled.text.find(line), line.size());
+    const std::size_t check = spoiled.text.find("check = ");  // of a record that nobody changed
+    spoiled.text.erase(check, spoiled.text.find('\n', check) + 1 - check);
     const std::string message = message_of([&] { read_text(spoiled.text); });
     EXPECT_THAT(message, option.before ? HasSubstr("no error")
                                        : HasSubstr(fmt::format("run.toml: {}: got nothing", option.key)));
