@@ -1,10 +1,10 @@
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <system_error>
 
@@ -115,6 +115,47 @@ void write_in_place(const fs::path& path, const WriteBytes& write) {
   ::close(descriptor);
 }
 
+/// A regular file, open to be read. Opening a pipe does not wait for who writes into it.
+class InputFile {
+ public:
+  explicit InputFile(const fs::path& path)
+      : descriptor_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+    if (descriptor_ < 0 && (errno == ENOENT || errno == ENOTDIR))
+      throw_input_error("{}: there is no such file", path.string());
+    const int failed = descriptor_ < 0 || ::fstat(descriptor_, &status_) != 0 ? errno : 0;
+    if (failed == 0 && S_ISREG(status_.st_mode)) return;
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (failed != 0) throw_input_error("{}: cannot be read: {}", path.string(), std::strerror(failed));
+    throw_input_error("{}: is {}, expected a file", path.string(),
+                      S_ISDIR(status_.st_mode) ? "a directory" : "a pipe or a device");
+  }
+  ~InputFile() { ::close(descriptor_); }
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  int descriptor() const { return descriptor_; }
+  const struct stat& status() const { return status_; }
+
+ private:
+  struct stat status_ {};
+  int descriptor_;
+};
+
+constexpr std::size_t kSmallestPiece = 4096;
+
+/// Returns 0 at the end.
+std::size_t read_some(int descriptor, char* bytes, std::size_t count, const fs::path& path) {
+  for (;;) {
+    const ssize_t got = ::read(descriptor, bytes, count);
+    if (got >= 0) return static_cast<std::size_t>(got);
+    if (errno != EINTR) throw_input_error("{}: cannot be read to its end", path.string());
+  }
+}
+
+[[noreturn]] void throw_too_large(const fs::path& path, std::uintmax_t most_bytes) {
+  throw_input_error("{}: got more than {} bytes, expected a smaller file", path.string(), most_bytes);
+}
+
 }  // namespace
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
@@ -152,15 +193,28 @@ void remove_temporary_files(const fs::path& directory) {
       fs::remove(entry.path(), none);
 }
 
-std::string read_file(const fs::path& path) {
-  std::error_code none;
-  const fs::file_status status = fs::status(path, none);
-  if (!fs::exists(status)) throw_input_error("{}: there is no such file", path.string());
-  if (fs::is_directory(status)) throw_input_error("{}: is a directory, expected a file", path.string());
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw_input_error("{}: cannot be read: {}", path.string(), std::strerror(errno));
-  std::string bytes(std::istreambuf_iterator<char>(stream), {});
-  if (stream.bad()) throw_input_error("{}: cannot be read to its end", path.string());
+std::string read_file(const fs::path& path, std::uintmax_t most_bytes) {
+  const InputFile file(path);
+  const auto claimed = static_cast<std::uintmax_t>(file.status().st_size);
+  if (claimed > most_bytes) throw_too_large(path, most_bytes);
+  std::string bytes;
+  for (std::size_t count = 0;; count = bytes.size()) {  // files of /proc claim no bytes, and have some
+    bytes.resize(count > claimed ? count + (count >> 1) + kSmallestPiece
+                                 : std::max<std::size_t>(claimed + 1, kSmallestPiece));
+    const std::size_t got = read_some(file.descriptor(), bytes.data() + count, bytes.size() - count, path);
+    bytes.resize(count + got);
+    if (got == 0) return bytes;
+    if (bytes.size() > most_bytes) throw_too_large(path, most_bytes);
+  }
+}
+
+std::string read_beginning(const fs::path& path, std::size_t most_bytes) {
+  const InputFile file(path);
+  std::string bytes(std::min(most_bytes, static_cast<std::size_t>(file.status().st_size)), '\0');
+  std::size_t count = 0, got = 0;
+  while ((got = read_some(file.descriptor(), bytes.data() + count, bytes.size() - count, path)) > 0)
+    count += got;
+  bytes.resize(count);
   return bytes;
 }
 

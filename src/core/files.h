@@ -2,6 +2,7 @@
 // renamed over it. A killed program, a full disk or a power cut leaves the old file, or none: the bytes are
 // on the disk before the rename, and the rename before the call returns.
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -28,7 +29,14 @@ bool is_temporary_name(const std::filesystem::path& path);
 /// Removes what killed programs left in the directory. Nobody may be writing there.
 void remove_temporary_files(const std::filesystem::path& directory);
 
-/// The whole file. Throws InputError with one line (path and reason) where it cannot be read.
-std::string read_file(const std::filesystem::path& path);
+inline constexpr std::uintmax_t kMostFileBytes = std::uintmax_t{2} << 30;
+inline constexpr std::uintmax_t kMostTextBytes = 4 << 20;  ///< of what a person writes: a model, a preset
+
+/// The whole file, which is a regular one: pipes and devices, which may never end, are not opened. Throws
+/// InputError with one line (path and reason) where it cannot be read, or has more than `most_bytes`.
+std::string read_file(const std::filesystem::path& path, std::uintmax_t most_bytes = kMostFileBytes);
+
+/// As many of its first bytes as there are, up to `most_bytes`; else as above.
+std::string read_beginning(const std::filesystem::path& path, std::size_t most_bytes);
 
 }  // namespace espalier

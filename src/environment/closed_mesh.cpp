@@ -1,21 +1,17 @@
-// Reading closed meshes: Assimp parses and triangulates, then vertices are welded by position and every
+// Reading closed meshes: their triangles are read, then vertices are welded by position and every
 // edge is counted. Text and binary formats repeat the coordinates of shared vertices exactly, so welding
 // compares bits and needs no tolerance.
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
 #include <algorithm>
 #include <array>
-#include <assimp/Importer.hpp>
 #include <cmath>
-#include <fstream>
 #include <string>
 #include <system_error>
 #include <tuple>
 
 #include <espalier/core/error.h>
+#include <espalier/core/files.h>
 #include <espalier/environment/closed_mesh.h>
-#include <espalier/environment/ply_counts.h>
+#include <espalier/environment/meshes/mesh_triangles.h>
 
 namespace espalier {
 
@@ -42,48 +38,23 @@ const MeshFormat& format_of(const fs::path& path) {
                     path.string(), extension);
 }
 
-void check_head(const fs::path& path) {
-  std::string begin(4096, ' ');
-  std::ifstream stream(path, std::ios::binary);
-  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  begin.resize(static_cast<std::size_t>(stream.gcount()));
+constexpr std::uintmax_t kMostBytes = 256u << 20;
+constexpr std::size_t kMostTriangles = 20'000'000;
+
+Vec3 z_up(Vec3 v, bool y_up) { return y_up ? Vec3{v.x, -v.z, v.y} : v; }
+
+/// All triangles of the file, three vertices each.
+std::vector<Vec3> triangle_soup(const fs::path& path) {
+  const MeshFormat& format = format_of(path);
   std::error_code none;
-  try {
-    check_ply_counts(begin, fs::file_size(path, none));
-  } catch (const InputError& error) {
-    throw_input_error("mesh '{}': {}", path.string(), error.what());
-  }
-}
-
-const aiScene& import_scene(Assimp::Importer& importer, const fs::path& path) {
-  std::error_code none;
-  if (!fs::exists(path, none)) throw_input_error("mesh '{}': no such file", path.string());
-  if (!fs::is_regular_file(path, none)) throw_input_error("mesh '{}': not a file", path.string());
-  check_head(path);
-  const aiScene* scene =
-      importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
-  if (!scene)
-    throw_input_error("mesh '{}': not readable as a mesh: {}", path.string(), importer.GetErrorString());
-  return *scene;
-}
-
-Vec3 to_z_up(const aiVector3D& v, bool y_up) { return y_up ? Vec3{v.x, -v.z, v.y} : Vec3{v.x, v.y, v.z}; }
-
-/// All triangles of the scene, three vertices each.
-std::vector<Vec3> triangle_soup(const aiScene& scene, bool y_up) {
-  std::vector<Vec3> soup;
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& mesh = *scene.mMeshes[m];
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      const aiFace& face = mesh.mFaces[f];
-      if (face.mNumIndices != 3) continue;  // points and lines
-      for (unsigned i = 0; i < 3; ++i) soup.push_back(to_z_up(mesh.mVertices[face.mIndices[i]], y_up));
-    }
-  }
+  const fs::file_status status = fs::status(path, none);
+  if (!fs::exists(status)) throw_input_error("mesh '{}': no such file", path.string());
+  if (!fs::is_regular_file(status)) throw_input_error("mesh '{}': not a file", path.string());
+  std::vector<Vec3> soup = read_mesh_triangles(read_file(path, kMostBytes), format.extension.substr(1),
+                                               fmt::format("mesh '{}'", path.string()), kMostTriangles);
+  for (Vec3& vertex : soup) vertex = z_up(vertex, format.y_up);
   return soup;
 }
-
-bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 /// Gives each different position one index, in order of (x, y, z).
 ClosedMesh weld(const std::vector<Vec3>& soup) {
@@ -182,12 +153,7 @@ bool encloses_nothing(const ClosedMesh& mesh) {
 }  // namespace
 
 ClosedMesh read_closed_mesh(const fs::path& path) {
-  const MeshFormat& format = format_of(path);
-  Assimp::Importer importer;
-  const std::vector<Vec3> soup = triangle_soup(import_scene(importer, path), format.y_up);
-  if (!std::all_of(soup.begin(), soup.end(), is_finite))
-    throw_input_error("mesh '{}': a vertex is not finite", path.string());
-  ClosedMesh mesh = weld(soup);
+  ClosedMesh mesh = weld(triangle_soup(path));
   if (mesh.triangles.empty())
     throw_input_error("mesh '{}': no triangles, expected a closed mesh", path.string());
   const EdgeCounts counts = count_edges(mesh);

@@ -1,4 +1,4 @@
-// Closed triangle meshes read from files with Assimp: the surface of a volume. Metres, z up.
+// Closed triangle meshes read from files: the surface of a volume. Metres, z up.
 // Vertices at the same place are one vertex, whatever normals or texture coordinates the file gives
 // them; then closed means that an even number of triangles meet at every edge.
 #pragma once
@@ -17,7 +17,8 @@ struct ClosedMesh {
   bool oriented = true;  ///< at every edge as many triangles run along it as run back
 };
 
-/// Reads obj, ply, stl, off, glb or gltf, told apart by extension; all meshes of the file together.
+/// Reads obj, ply, stl, off, glb or gltf, told apart by extension; all meshes of the file together. Files
+/// that it names (of materials, of a gltf's numbers) are not opened.
 /// Throws InputError for a file that is missing, unreadable, without triangles, flat, or open (with the
 /// number of open edges).
 ClosedMesh read_closed_mesh(const std::filesystem::path& path);

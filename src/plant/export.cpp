@@ -256,6 +256,14 @@ std::string with_header(const MeshFormat& format, std::string_view bytes) {
   return file;
 }
 
+/// Assimp gives no reason where memory has no room for the file.
+[[noreturn]] void throw_not_written(const PlantMesh& mesh, const fs::path& path, std::string_view reason) {
+  if (reason.empty())
+    throw_input_error("mesh '{}': its {} triangles need more memory than there is", path.string(),
+                      mesh.triangle_count());
+  throw InternalError(fmt::format("mesh '{}': Assimp: {}", path.string(), reason));
+}
+
 }  // namespace
 
 void check_mesh_path(const fs::path& path) {
@@ -280,14 +288,16 @@ void write_mesh(const PlantMesh& mesh, const fs::path& path, const MeshFileOptio
   const MeshFormat format = format_for(path, options);
   if (mesh.triangle_count() == 0)
     throw_input_error("mesh '{}': the plant has no stems and no leaves", path.string());
+  if (mesh.triangle_count() > options.most_triangles)
+    throw_input_error("mesh '{}': the plant has {} triangles, expected at most {}: a lower detail has fewer",
+                      path.string(), mesh.triangle_count(), options.most_triangles);
   Assimp::Exporter exporter;
   Assimp::ExportProperties properties;
   properties.SetPropertyString(AI_CONFIG_EXPORT_BLOB_NAME, safe_name(path.filename().string()));  // of an mtl
   const std::unique_ptr<aiScene> scene = make_scene(mesh, format, options);
   const aiExportDataBlob* blob =
       exporter.ExportToBlob(scene.get(), std::string(format.assimp_id), 0, &properties);
-  if (!blob)
-    throw InternalError(fmt::format("mesh '{}': Assimp: {}", path.string(), exporter.GetErrorString()));
+  if (!blob) throw_not_written(mesh, path, exporter.GetErrorString());
   // The first blob is the mesh, one may follow. The mesh is written last: it names the other.
   for (const aiExportDataBlob* extra = blob->next; extra; extra = extra->next)
     write_file_atomically(path.parent_path() / extra->name.C_Str(), bytes_of(*extra));

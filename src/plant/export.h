@@ -26,14 +26,15 @@ UpAxis usual_up_axis(const std::filesystem::path& path);
 void check_up_axis(const std::filesystem::path& path, UpAxis up);
 
 struct MeshFileOptions {
-  std::optional<UpAxis> up = {};   ///< none: the usual one of the format
-  PartColor bark = {}, leaf = {};  ///< of the species; not set: the usual ones
+  std::optional<UpAxis> up = {};            ///< none: the usual one of the format
+  PartColor bark = {}, leaf = {};           ///< of the species; not set: the usual ones
+  std::size_t most_triangles = 20'000'000;  ///< writing takes some 300 bytes of memory for each
 };
 
 /// Writes the mesh, each file whole or not at all. An obj's mtl lies beside it and has its name, with `_` for
 /// what not all readers of obj take in a name: anything but letters, digits, `.`, `-` and `_`. Throws
-/// InputError for a mesh without triangles or a path that cannot be written, FieldError in "up" for a glb
-/// with z up.
+/// InputError for a mesh without triangles or with too many, or a path that cannot be written, FieldError in
+/// "up" for a glb with z up.
 void write_mesh(const PlantMesh& mesh, const std::filesystem::path& path,
                 const MeshFileOptions& options = {});
 

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <filesystem>
@@ -145,6 +146,25 @@ TEST_F(Files, DirectoriesAreMadeWithAllAboveThem) {
 TEST_F(Files, WhatCannotBeReadIsRefused) {
   EXPECT_THROW(read_file(folder_ / "missing"), InputError);
   EXPECT_THROW(read_file(folder_), InputError);
+}
+
+TEST_F(Files, PipesAndDevicesAreNotOpened) {
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  for (const fs::path& path : {folder_ / "pipe", fs::path("/dev/zero")}) {
+    EXPECT_THAT([&] { read_file(path); }, testing::ThrowsMessage<InputError>(
+                                              testing::HasSubstr("is a pipe or a device, expected a file")));
+    EXPECT_THROW(read_beginning(path, 10), InputError) << path;
+  }
+}
+
+TEST_F(Files, ReadingHasABound) {
+  write_file_atomically(folder_ / "a", std::string(1000, 'x'));
+  EXPECT_EQ(read_file(folder_ / "a", 1000).size(), 1000u);
+  EXPECT_THROW(read_file(folder_ / "a", 999), InputError);
+  EXPECT_EQ(read_beginning(folder_ / "a", 10), std::string(10, 'x'));
+  EXPECT_EQ(read_beginning(folder_ / "a", 2000), std::string(1000, 'x'));
+  EXPECT_FALSE(read_file("/proc/self/status").empty());  // it claims to be empty
+  EXPECT_THROW(read_file("/proc/self/status", 10), InputError);
 }
 
 }  // namespace

@@ -291,6 +291,15 @@ Plant colored_plant() {
   return plant;
 }
 
+TEST_F(Export, MeshesThatNeedTooMuchMemoryAreRefused) {
+  const PlantMesh mesh = mesh_plant(small_plant(), {});
+  const std::size_t triangles = mesh.triangle_count();
+  write_mesh(mesh, directory_ / "a.ply", {.most_triangles = triangles});
+  EXPECT_THAT([&] { write_mesh(mesh, directory_ / "b.ply", {.most_triangles = triangles - 1}); },
+              testing::ThrowsMessage<InputError>(HasSubstr("expected at most")));
+  EXPECT_EQ(files(), (std::set<std::string>{"a.ply"}));
+}
+
 TEST_F(Export, ColorsAreMaterials) {
   const Plant plant = colored_plant();
   const PlantMesh mesh = mesh_plant(plant, {});

@@ -56,4 +56,9 @@ const PictureCodecs& picture_codecs() {
   return codecs;
 }
 
+std::shared_mutex& picture_codecs_in_use() {
+  static std::shared_mutex in_use;
+  return in_use;
+}
+
 }  // namespace espalier

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <shared_mutex>
 #include <string>
 
 namespace espalier {
@@ -13,7 +14,7 @@ struct PictureLayout {
   int width_px = 0, height_px = 0, layers = 1, channels = 0;
   int red = -1, green = -1, blue = -1, alpha = -1;  ///< channels by name; -1: the file names none
   int orientation = 1;                              ///< EXIF's, 1 to 8
-  int tile_rows = 0;                                ///< read as many at once; 0: any number
+  int tile_rows = 0, tile_columns = 0;              ///< read as many rows at once; 0: any number
   int bits = 0;  ///< of a sample that is a whole number: 8 or 16; 0: it is none
 };
 
@@ -24,6 +25,8 @@ class PictureInput {
   /// Rows [begin, end) into (end - begin) · width_px · channels samples; integer formats span 0 to 1. False,
   /// and error() says why, where they cannot be read.
   virtual bool read_rows(int begin, int end, float* samples) = 0;
+  /// Goes on to the next frame of an animation, or page; false where there is none.
+  virtual bool next_frame() = 0;
   virtual std::string error() = 0;
 };
 
@@ -45,12 +48,15 @@ struct EncodedPicture {
 class PictureCodecs {
  public:
   virtual ~PictureCodecs() = default;
-  /// A frame of an animation, or a page, counted from 0. Null, and `error` says why, where the file is no
-  /// picture that can be read or has no such frame.
-  virtual std::unique_ptr<PictureInput> open(const std::string& path, int frame,
+  /// A frame of an animation, or a page, counted from 0, by the reader of this name ("png", "jpeg"). Null,
+  /// and `error` says why, where the file is no picture that it can read or has no such frame.
+  virtual std::unique_ptr<PictureInput> open(const std::string& path, const std::string& reader, int frame,
                                              std::string& error) const = 0;
   /// Of a file that can be opened.
-  virtual int count_frames(const std::string& path) const = 0;
+  virtual int count_frames(const std::string& path, const std::string& reader) const = 0;
+  /// For a process that was forked, whose other threads are gone: from now on all is done by the one that
+  /// asks.
+  virtual void use_one_thread() const = 0;
   /// A PNG of 1, 3 or 4 channels of 8 bits (sRGB, opacity not multiplied in); `name` is for messages.
   virtual EncodedPicture encode_png(const std::string& name, int width_px, int height_px, int channels,
                                     const std::uint8_t* samples) const = 0;
@@ -62,5 +68,9 @@ class PictureCodecs {
 /// Those there are, loaded when first asked for; threads may ask. Throws InternalError, which says where it
 /// looked, where the module is missing.
 const PictureCodecs& picture_codecs();
+
+/// Held with others by who encodes, alone by who forks a process that decodes: it must not inherit a lock of
+/// the library from a thread that is not there to open it.
+std::shared_mutex& picture_codecs_in_use();
 
 }  // namespace espalier

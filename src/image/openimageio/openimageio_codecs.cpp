@@ -32,6 +32,7 @@ PictureLayout layout_of(const OIIO::ImageSpec& spec) {
           .alpha = alpha_of(spec),
           .orientation = spec.get_int_attribute("Orientation", 1),
           .tile_rows = spec.tile_width == 0 ? 0 : spec.tile_height,
+          .tile_columns = spec.tile_width,
           .bits = bits_of(spec.format)};
 }
 
@@ -51,6 +52,14 @@ class FileInput : public PictureInput {
     const bool read =
         spec_.tile_width == 0 ? read_scanlines(begin, end, samples) : read_tiles(begin, end, samples);
     return read && !input_->has_error();  // TIFF's reader returns true for rows that are not in the file
+  }
+
+  bool next_frame() override {
+    if (!input_->seek_subimage(frame_ + 1, 0)) return false;
+    ++frame_;
+    spec_ = input_->spec();
+    layout_ = layout_of(spec_);
+    return true;
   }
 
   std::string error() override { return input_->geterror(); }
@@ -104,21 +113,38 @@ class GifOutput : public AnimationOutput {
   int added_ = 0;
 };
 
+/// By its own name: asked by that of a file, OpenImageIO would try one reader after the other.
+std::unique_ptr<OIIO::ImageInput> open_file(const std::string& path, const std::string& reader,
+                                            std::string& error) {
+  auto input = OIIO::ImageInput::create(reader);
+  OIIO::ImageSpec spec;
+  if (input && input->open(path, spec)) return input;
+  error = input ? input->geterror() : OIIO::geterror();
+  return nullptr;
+}
+
 class OpenImageIoCodecs : public PictureCodecs {
  public:
-  std::unique_ptr<PictureInput> open(const std::string& path, int frame, std::string& error) const override {
-    auto input = OIIO::ImageInput::open(path);
+  std::unique_ptr<PictureInput> open(const std::string& path, const std::string& reader, int frame,
+                                     std::string& error) const override {
+    auto input = open_file(path, reader, error);
     if (input && (frame == 0 || input->seek_subimage(frame, 0)))
       return std::make_unique<FileInput>(std::move(input));
-    error = input ? "it has no such frame" : OIIO::geterror();
+    if (input) error = "it has no such frame";
     return nullptr;
   }
 
-  int count_frames(const std::string& path) const override {
-    const auto input = OIIO::ImageInput::open(path);
+  int count_frames(const std::string& path, const std::string& reader) const override {
+    std::string error;
+    const auto input = open_file(path, reader, error);
     int frames = 0;
     while (input && frames < kMostFrames && input->seek_subimage(frames, 0)) ++frames;
     return frames;
+  }
+
+  void use_one_thread() const override {
+    OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", -1);  // none beside the one that asks
   }
 
   EncodedPicture encode_png(const std::string& name, int width_px, int height_px, int channels,

@@ -1,3 +1,5 @@
+#include <shared_mutex>
+
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
 #include <espalier/image/codecs/codecs.h>
@@ -9,7 +11,9 @@ namespace {
 
 std::unique_ptr<AnimationOutput> open_gif(int width_px, int height_px, int frames, double frame_s) {
   std::string error;
-  auto output = picture_codecs().encode_gif(width_px, height_px, frames, frame_s, error);
+  const PictureCodecs& codecs = picture_codecs();
+  const std::shared_lock in_use(picture_codecs_in_use());
+  auto output = codecs.encode_gif(width_px, height_px, frames, frame_s, error);
   if (!output) throw InternalError("GIF encoding failed: " + error);
   return output;
 }
@@ -39,12 +43,16 @@ void Animation::add(const Picture& picture) {
   ESPALIER_CHECK_EQ(picture.width_px, encoder_->width_px);
   ESPALIER_CHECK_EQ(picture.height_px, encoder_->height_px);
   ++encoder_->added;
+  const std::shared_lock in_use(picture_codecs_in_use());
   encoder_->check(encoder_->output->add(reinterpret_cast<const std::uint8_t*>(picture.pixels.data())));
 }
 
 void Animation::write(const std::filesystem::path& path) {
   ESPALIER_CHECK_EQ(encoder_->added, encoder_->frames);
-  encoder_->check(encoder_->output->close());
+  {
+    const std::shared_lock in_use(picture_codecs_in_use());
+    encoder_->check(encoder_->output->close());
+  }
   write_file_atomically(path, encoder_->output->bytes());
 }
 

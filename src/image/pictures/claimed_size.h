@@ -1,16 +1,19 @@
-// The size that the header of a GIF or WebP file claims. Their readers decode, and so allocate, while
-// they open a file; a claim must be known before. GIF89a §18; WebP container specification (RFC 9649).
+// The size that the header of a picture claims: known before a reader, which may believe it, allocates
+// anything, and what time and memory its decoding may take. Only as much of each format is read as that
+// needs.
 #pragma once
-#include <filesystem>
 #include <optional>
+#include <string>
+#include <string_view>
 
 namespace espalier {
 
 struct ClaimedSize {
-  int width_px = 0, height_px = 0;
+  double width_px = 0, height_px = 0;
 };
 
-/// Nothing for other formats, and where the header is cut off.
-std::optional<ClaimedSize> claimed_size(const std::filesystem::path& path);
+/// `format` as picture_format has it. The largest where there are several pictures (pages, parts, tiles of
+/// HEIC). Nothing where the bytes, the first ones of a file, do not say.
+std::optional<ClaimedSize> claimed_size(std::string_view bytes, const std::string& format);
 
 }  // namespace espalier

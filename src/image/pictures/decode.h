@@ -1,6 +1,7 @@
-// A picture file becomes finite RGBA floats, upright. Reads what OpenImageIO reads: 8, 16 or 32 bit,
-// float, grey, palette, alpha. Pictures whose larger side exceeds kMaxDecodedSide are averaged in whole
-// blocks while they are read, so that memory stays bounded.
+// A picture file becomes finite RGBA floats, upright: PNG, JPEG, GIF, TIFF, WebP, BMP, EXR, HEIC, AVIF, PNM
+// and TGA, of 8, 16 or 32 bit, float, grey, palette, alpha. Its decoder works in a process of its own.
+// Pictures whose larger side exceeds kMaxDecodedSide are averaged in whole blocks while they are read, so
+// that memory stays bounded.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -36,7 +37,8 @@ struct DecodedPicture {
 /// `frame`: of an animation or of pages, counted from 1; 0: the first that is not all of one colour. Throws
 /// InputError (one line that opens with the path): no such file, a directory, empty, no picture,
 /// no such frame, damaged, larger than kMaxSourcePixels (read from its header), smaller than kMinSourceSide
-/// on a side, or with pixels that are no finite numbers.
+/// on a side, or with pixels that are no finite numbers; and where its decoder crashes, or takes more time or
+/// memory than a picture of this size may.
 DecodedPicture decode_picture(const std::filesystem::path& path, int frame = 0);
 
 }  // namespace espalier

@@ -1,3 +1,4 @@
+#include <shared_mutex>
 #include <string_view>
 #include <utility>
 
@@ -15,8 +16,10 @@ std::string encode_png(const std::filesystem::path& path, int width_px, int heig
                        const std::uint8_t* samples) {
   if (width_px < 1 || height_px < 1)
     throw_input_error("{}: a picture of {}×{} pixels cannot be written", path.string(), width_px, height_px);
+  const PictureCodecs& codecs = picture_codecs();
+  const std::shared_lock in_use(picture_codecs_in_use());
   EncodedPicture encoded =
-      picture_codecs().encode_png(path.filename().string(), width_px, height_px, channels, samples);
+      codecs.encode_png(path.filename().string(), width_px, height_px, channels, samples);
   if (!encoded.error.empty()) throw InternalError(encoded.error);
   return std::move(encoded.bytes);
 }

@@ -38,7 +38,7 @@ std::vector<PlanePoint> read_function_file(const std::string& file, const Positi
     const std::uintmax_t bytes = std::filesystem::file_size(path, none);
     if (!none && bytes > kMostFunctionBytes)
       throw_input_error("{}: got {} bytes, expected at most {}", file, bytes, kMostFunctionBytes);
-    return read_func_points(read_file(path), file);
+    return read_func_points(read_file(path, kMostTextBytes), file);
   } catch (const InputError& error) {
     throw_at(position, "{}", error.what());
   }

@@ -41,15 +41,12 @@ std::filesystem::path note_file(const std::string& name, const Source& source) {
 }
 
 std::string read_text(const std::filesystem::path& path, ReadSoFar& so_far) {
-  std::error_code none;
-  if (std::filesystem::is_other(path, none))
-    throw_input_error("{}: is no regular file, expected one", path.string());
-  const bool is_file = std::filesystem::is_regular_file(path, none);
-  if (is_file) so_far.text_bytes += std::filesystem::file_size(path, none);
+  std::string text = read_file(path, kMostTextBytes);
+  so_far.text_bytes += text.size();
   if (so_far.text_bytes > kMostTextBytes)
     throw_input_error("{}: got more than {} MB, with the files before it, expected less", path.string(),
                       kMostTextBytes >> 20);
-  return read_file(path);
+  return text;
 }
 
 std::string shortened(std::string_view text) {

@@ -40,7 +40,7 @@ std::string file_text(const std::string& file, const Position& position) {
   const std::uintmax_t bytes = fs::file_size(path, none);
   if (!none && bytes > kMostBytes)
     throw_at(position, "surface \"{}\": got {} bytes, expected at most {}", file, bytes, kMostBytes);
-  return read_file(path);
+  return read_file(path, kMostBytes);
 }
 
 }  // namespace

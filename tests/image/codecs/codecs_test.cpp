@@ -15,7 +15,7 @@ bool is_loaded(const std::string& library) {
 TEST(Codecs, AreLoadedWithTheFirstFile) {
   EXPECT_FALSE(is_loaded("libOpenImageIO"));
   std::string error;
-  EXPECT_EQ(picture_codecs().open("/nowhere/picture.png", 0, error), nullptr);
+  EXPECT_EQ(picture_codecs().open("/nowhere/picture.png", "png", 0, error), nullptr);
   EXPECT_THAT(error, testing::HasSubstr("/nowhere/picture.png"));
   EXPECT_TRUE(is_loaded("libOpenImageIO"));
 }

@@ -23,7 +23,7 @@ TEST(OpenImageIoCodecs, APngHasTheSamplesThatWereEncoded) {
   const auto path = fresh_folder("codecs") / "a.png";
   std::ofstream(path, std::ios::binary) << encoded.bytes;
   std::string error;
-  const auto input = espalier_openimageio_codecs()->open(path.string(), 0, error);
+  const auto input = espalier_openimageio_codecs()->open(path.string(), "png", 0, error);
   ASSERT_TRUE(input) << error;
   EXPECT_EQ(input->layout().width_px, 2);
   EXPECT_EQ(input->layout().height_px, 2);

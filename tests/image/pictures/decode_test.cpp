@@ -39,10 +39,10 @@ void append_orientation(const fs::path& path, char orientation) {
 
 TEST_F(Decode, AWebpIsTurnedAsItsExifSays) {
   test::write_samples(folder_ / "a.webp", test::draw_tree(64, {.1f, .3f, .1f}, {1, 1, 1}));
-  EXPECT_EQ(webp_orientation(folder_ / "a.webp"), 1);
+  EXPECT_EQ(webp_orientation(read_file(folder_ / "a.webp")), 1);
   const DecodedPicture upright = decode_picture(folder_ / "a.webp");
   append_orientation(folder_ / "a.webp", 3);
-  EXPECT_EQ(webp_orientation(folder_ / "a.webp"), 3);
+  EXPECT_EQ(webp_orientation(read_file(folder_ / "a.webp")), 3);
   const DecodedPicture turned = decode_picture(folder_ / "a.webp");
   for (const auto& [x, y] : {std::pair{3, 60}, {27, 25}, {27, 50}})
     EXPECT_EQ(turned.at(63 - x, 63 - y), upright.at(x, y)) << x << ", " << y;
@@ -79,7 +79,7 @@ TEST_F(Decode, BlankFramesAreSkippedUnlessOneIsAskedFor) {
 
 TEST_F(Decode, FilesWithoutAPaletteHaveNone) {
   test::write_samples(folder_ / "a.png", test::draw_tree(64, {1}, {0}));
-  EXPECT_TRUE(png_palette(folder_ / "a.png").empty());
+  EXPECT_TRUE(png_palette(read_file(folder_ / "a.png")).empty());
   EXPECT_TRUE(decode_picture(folder_ / "a.png").is_grey);
   EXPECT_EQ(decode_picture(folder_ / "a.png").bits, 8);
 }

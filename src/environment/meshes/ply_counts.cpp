@@ -1,7 +1,7 @@
 #include <charconv>
 
 #include <espalier/core/error.h>
-#include <espalier/environment/ply_counts.h>
+#include <espalier/environment/meshes/ply_counts.h>
 
 namespace espalier {
 
@@ -18,16 +18,16 @@ std::uintmax_t count_of(std::string_view line) {
 
 }  // namespace
 
-void check_ply_counts(std::string_view begin, std::uintmax_t file_bytes) {
-  if (!begin.starts_with("ply")) return;
-  while (!begin.empty() && !begin.starts_with("end_header")) {
-    const std::size_t end = begin.find_first_of("\r\n");
-    std::string_view line = begin.substr(0, end);
+void check_ply_counts(std::string_view bytes) {
+  if (!bytes.starts_with("ply")) return;
+  for (std::string_view head = bytes; !head.empty() && !head.starts_with("end_header");) {
+    const std::size_t end = head.find_first_of("\r\n");
+    std::string_view line = head.substr(0, end);
     while (line.ends_with(' ')) line.remove_suffix(1);
-    if (count_of(line) > file_bytes)
+    if (count_of(line) > bytes.size())
       throw_input_error("got '{}' in a file of {} bytes, expected as many as it holds", line.substr(0, 60),
-                        file_bytes);
-    begin.remove_prefix(end == begin.npos ? begin.size() : end + 1);
+                        bytes.size());
+    head.remove_prefix(end == head.npos ? head.size() : end + 1);
   }
 }
 
