@@ -31,15 +31,17 @@ void StringIndex::build(const ModuleString& string, const SymbolTable& alphabet,
 }
 
 std::size_t StringIndex::previous(std::size_t i, Work& work) const {
-  while (i > 0) {
+  std::size_t steps = 0, found = kNone;
+  while (i > 0 && found == kNone) {
     --i;
-    work.add(work_of::kContextStep);
+    ++steps;
     if (symbols_[i] == close_)
       i = partner_[i];
     else if (symbols_[i] != open_ && !skipped_[symbols_[i]])
-      return i;
+      found = i;
   }
-  return kNone;
+  work.add(work_of::kContextStep * static_cast<double>(steps));
+  return found;
 }
 
 bool StringIndex::match_path(std::size_t i, std::span<const PatternModule> pattern, std::uint32_t* matched,
@@ -53,25 +55,25 @@ bool StringIndex::match_path(std::size_t i, std::span<const PatternModule> patte
 }
 
 /// The next module of the axis that a context cannot look past, or the end of its branch.
-std::size_t StringIndex::end_of_axis(std::size_t at, Work& work) const {
-  for (; at < size_ && !is_plain(at) && symbols_[at] != close_; ++at) {
-    work.add(work_of::kContextStep);
+std::size_t StringIndex::end_of_axis(std::size_t at, std::size_t& steps) const {
+  ++steps;
+  for (; at < size_ && !is_plain(at) && symbols_[at] != close_; ++at, ++steps)
     if (symbols_[at] == open_) at = partner_[at];
-  }
   return at;
 }
 
-std::size_t StringIndex::end_of_branch(std::size_t at, Work& work) const {
-  for (; at < size_ && symbols_[at] != close_; ++at) {
-    work.add(work_of::kContextStep);
+std::size_t StringIndex::end_of_branch(std::size_t at, std::size_t& steps) const {
+  ++steps;
+  for (; at < size_ && symbols_[at] != close_; ++at, ++steps)
     if (symbols_[at] == open_) at = partner_[at];
-  }
   return at;
 }
 
 /// The first branch that opens in [begin, end) of an axis, or the end.
-std::size_t StringIndex::next_branch(std::size_t begin, std::size_t end, Work& work) const {
-  for (; begin < end && symbols_[begin] != open_; ++begin) work.add(work_of::kContextStep);
+std::size_t StringIndex::next_branch(std::size_t begin, std::size_t end, std::size_t& steps) const {
+  const std::size_t first = begin;
+  while (begin < end && symbols_[begin] != open_) ++begin;
+  steps += begin - first + 1;
   return begin;
 }
 
@@ -82,33 +84,36 @@ std::size_t StringIndex::next_branch(std::size_t begin, std::size_t end, Work& w
 bool StringIndex::match_tree(std::size_t at, std::span<const PatternModule> pattern, std::uint32_t* matched,
                              Work& work) const {
   choices_.clear();
-  std::size_t k = 0;
+  std::size_t k = 0, steps = 1;
   for (;;) {
-    work.add(work_of::kContextStep);
     bool fits = true;
     if (pattern[k].symbol == open_) {
-      choices_.push_back({k, at, end_of_axis(at, work)});
+      choices_.push_back({k, at, end_of_axis(at, steps)});
       fits = false;  // its first branch is the first choice
     } else if (pattern[k].symbol == close_) {
-      at = end_of_branch(at, work) + 1;
+      at = end_of_branch(at, steps) + 1;
       fits = at <= size_;
     } else {
-      const std::size_t next = end_of_axis(at, work);
-      if (follow_branches_ && next > at) choices_.push_back({k, at, next});
+      ++steps;
+      const std::size_t next = at < size_ && is_plain(at) ? at : end_of_axis(at, steps);
       fits = next < size_ && symbols_[next] == pattern[k].symbol;
       matched[k] = static_cast<std::uint32_t>(next);
+      const bool is_last = fits && k + 1 == pattern.size();
+      if (follow_branches_ && next > at && !is_last) choices_.push_back({k, at, next});
       at = next + 1;
     }
     if (fits) {
-      if (++k == pattern.size()) return true;
-      continue;
+      if (++k < pattern.size()) continue;
+      work.add(work_of::kContextStep * static_cast<double>(steps));
+      return true;
     }
+    work.add(work_of::kContextStep * static_cast<double>(steps));
+    steps = 0;
     std::size_t branch = 0;
     for (;;) {
       if (choices_.empty()) return false;
       Choice& choice = choices_.back();
-      work.add(work_of::kContextStep);
-      branch = next_branch(choice.begin, choice.end, work);
+      branch = next_branch(choice.begin, choice.end, steps);
       k = choice.pattern;
       if (branch < choice.end) {
         choice.begin = partner_[branch] + 1;

@@ -61,9 +61,9 @@ class StringIndex {
   };
   bool match_tree(std::size_t at, std::span<const PatternModule> pattern, std::uint32_t* matched,
                   Work& work) const;
-  std::size_t end_of_axis(std::size_t at, Work& work) const;
-  std::size_t end_of_branch(std::size_t at, Work& work) const;
-  std::size_t next_branch(std::size_t begin, std::size_t end, Work& work) const;
+  std::size_t end_of_axis(std::size_t at, std::size_t& steps) const;
+  std::size_t end_of_branch(std::size_t at, std::size_t& steps) const;
+  std::size_t next_branch(std::size_t begin, std::size_t end, std::size_t& steps) const;
 
   const SymbolId* symbols_ = nullptr;
   std::size_t size_ = 0;

@@ -20,7 +20,7 @@ inline constexpr double kInScene = 1500;           // a knot or a leaf that may 
 inline constexpr double kRay = 400;                // of light
 inline constexpr double kLuaCall = 300;            // of a body of a production
 inline constexpr double kSymbol = 100;             // of the alphabet, before a string is read
-inline constexpr double kKnot = 150, kLeaf = 150;  // drawn, and seen in a picture
+inline constexpr double kKnot = 400, kLeaf = 400;  // drawn, and seen in a picture
 inline constexpr double kCorner = 4;               // of a polygon that an ear is tried against
 inline constexpr double kFrameStep = 60;           // from node to node of a frame of axes
 }  // namespace work_of

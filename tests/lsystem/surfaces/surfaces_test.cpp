@@ -237,7 +237,18 @@ TEST(Surfaces, PlantsOfManyTrianglesAreRefused) {
       "surface p = \"petal.patch\"\naxiom: S\nproductions:\n S --> lua\n   for i = 1, 80000 do produce('Q') "
       "end\n"
       "interpretation:\n Q --> ~(\"p\")\n";
-  EXPECT_THAT(message_of([&] { plant_of(many, 1); }), HasSubstr("more than 5000000 leaves and triangles"));
+  EXPECT_THAT(message_of([&] { plant_of(many, 1); }),
+              HasSubstr("test.lsys: got more than 1e+09 units of work"));
+  const auto with_much_work = [&] {
+    const Grammar grammar = parse_grammar(many, "test.lsys");
+    Derivation derivation(grammar);
+    derivation.start(1);
+    derivation.run(1);
+    Plant plant;
+    Work work("test.lsys", 1e12);
+    build_plant(derivation.interpreted(), derivation.alphabet(), derivation.settings(), plant, work);
+  };
+  EXPECT_THAT(message_of(with_much_work), HasSubstr("test.lsys: got more than 5000000 leaves and triangles"));
 }
 
 }  // namespace
