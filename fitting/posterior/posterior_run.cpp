@@ -170,8 +170,8 @@ void check_request(const PosteriorRequest& request) {
     throw_field_error("simulations",
                       "got {}, expected {} to {}: fewer draws of the prior have too few near the picture",
                       request.simulations, kLeastTableSize, kMostSimulations);
-  if (!(request.height_m > 0) || request.height_m > 1000)
-    throw_field_error("height", "got {:g}, expected metres above 0, up to 1000", request.height_m);
+  if (!(request.height_m >= 0.01 && request.height_m <= 1000))
+    throw_field_error("height", "got {:g}, expected 0.01 to 1000 m", request.height_m);
   if (request.samples < 1 || request.samples > kMostSimulations)
     throw_field_error("samples", "got {}, expected 1 to {}", request.samples, kMostSimulations);
 }

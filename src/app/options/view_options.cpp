@@ -23,7 +23,8 @@ template <typename Number>
 std::optional<Number> parse_number(std::string_view text) {
   Number value{};
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size()) return std::nullopt;
+  if (error != std::errc() || stop != text.data() + text.size() || !std::isfinite(static_cast<double>(value)))
+    return std::nullopt;
   return value;
 }
 

@@ -35,6 +35,12 @@ TEST(ViewOptions, RefuseAnglesOutsideTheirRange) {
   EXPECT_NO_THROW(check_view(options));
 }
 
+TEST(ViewOptions, AnglesAreFiniteNumbers) {
+  EXPECT_TRUE(parse_angles("30,-10"));
+  for (const char* text : {"nan", "nan,nan", "0,inf", "-inf,0", "1e300,0", "", ","})
+    EXPECT_FALSE(parse_angles(text)) << text;
+}
+
 TEST(ViewOptions, TheCameraHasTheSizeAndHoldsThePlant) {
   Plant plant;
   ViewOptions options;
