@@ -7,7 +7,7 @@
 
 #include <espalier/core/error.h>
 #include <espalier/environment/meshes/mesh_triangles.h>
-#include <espalier/environment/meshes/ply_counts.h>
+#include <espalier/environment/meshes/ply_head.h>
 
 namespace {
 
@@ -27,8 +27,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const bool is_whole = std::getenv("ESPALIER_FUZZ_WHOLE") != nullptr;
   if (size == 0) return 0;
   const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-  read_or_refuse([&] { espalier::check_ply_counts(bytes); });
-  read_or_refuse([&] { espalier::check_ply_counts("ply\n" + std::string(bytes)); });
+  read_or_refuse([&] { espalier::check_ply_head(bytes); });
+  read_or_refuse([&] { espalier::check_ply_head("ply\n" + std::string(bytes)); });
   if (is_whole)
     read_or_refuse(
         [&] { espalier::read_mesh_triangles(bytes, kFormats[data[0] % 6], "mesh 'a'", 1'000'000); });

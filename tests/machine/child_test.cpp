@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
@@ -58,6 +59,8 @@ std::string message_of(const Work& work, const ChildLimits& limits = {}) {
 int error_in_child(const std::function<long()>& call) {
   return answer_of(answers([call] { return call() < 0 ? errno : 0; }));
 }
+
+void sleep_long(const SendBytes&) { std::this_thread::sleep_for(std::chrono::hours(1)); }
 
 bool has_children() { return waitpid(-1, nullptr, WNOHANG) >= 0 || errno != ECHILD; }
 
@@ -111,12 +114,11 @@ TEST(Child, WhatItSaysReachesNoTerminal) {
 
 TEST(Child, WorkWithoutEndIsEnded) {
   const Work spin = [](const SendBytes&) {
-    for (volatile int i = 0;; i = i + 1) {
+    for (std::atomic<int> i = 0;; ++i) {
     }
   };
   EXPECT_THAT(message_of(spin, {.cpu_s = 0.05}), HasSubstr("took longer than"));
-  const Work wait = [](const SendBytes&) { std::this_thread::sleep_for(std::chrono::hours(1)); };
-  EXPECT_THAT(message_of(wait, {.wall_s = 0.1}), HasSubstr("took longer than"));
+  EXPECT_THAT(message_of(sleep_long, {.wall_s = 0.1}), HasSubstr("took longer than"));
 }
 
 TEST(Child, MemoryHasABound) {
@@ -135,7 +137,7 @@ TEST(Child, NoneIsLeftOver) {
   message_of([](const SendBytes&) { std::abort(); });
   answer_of(answers([] { return 1; }));
   {
-    const Child left("a.png", {}, [](const SendBytes&) { pause(); });
+    const Child left("a.png", {}, sleep_long);
   }
   EXPECT_FALSE(has_children());
 }
@@ -221,7 +223,7 @@ TEST(Child, WorksInProgramsThatIgnoreTheirChildren) {
   const ScopedSignal ignored(SIGCHLD, SIG_IGN);
   EXPECT_EQ(answer_of(answers([] { return 5; })), 5);
   EXPECT_THAT(message_of([](const SendBytes&) { std::abort(); }), HasSubstr("ended without an answer"));
-  EXPECT_THAT(message_of([](const SendBytes&) { pause(); }, {.wall_s = 0.1}), HasSubstr("took longer"));
+  EXPECT_THAT(message_of(sleep_long, {.wall_s = 0.1}), HasSubstr("took longer"));
 }
 
 TEST(Child, InterruptionsOfTheParentAreNone) {
@@ -246,25 +248,23 @@ TEST(Child, SignalsOfTheTerminalAreItsParents) {
 }
 
 TEST(Child, WorksWithClosedStreams) {
-  EXPECT_EXIT(
-      {
-        close(STDIN_FILENO), close(STDOUT_FILENO);
-        _exit(answer_of(answers([] { return 5; })));
-      },
-      testing::ExitedWithCode(5), "");
+  const auto answer_without_streams = [] {
+    close(STDIN_FILENO), close(STDOUT_FILENO);
+    _exit(answer_of(answers([] { return 5; })));
+  };
+  EXPECT_EXIT(answer_without_streams(), testing::ExitedWithCode(5), "");
 }
 
 TEST(Child, WithoutProcessesIsOneLine) {
   if (has_sanitizer()) GTEST_SKIP() << "sanitizers have threads of their own";
-  EXPECT_EXIT(
-      {
-        const rlimit none{.rlim_cur = 0, .rlim_max = 0};
-        if (setuid(65534) != 0) errno = 0;  // limits of processes do not hold for root
-        setrlimit(RLIMIT_NPROC, &none);
-        const std::string message = message_of(answers([] { return 5; }));
-        _exit(message.find("a.png: no process can be started") == 0 ? 3 : 4);
-      },
-      testing::ExitedWithCode(3), "");
+  if (geteuid() != 0) GTEST_SKIP() << "needs a user without processes, which root can be";
+  const auto answer_without_processes = [] {
+    const rlimit none{.rlim_cur = 0, .rlim_max = 0};
+    setrlimit(RLIMIT_NPROC, &none);
+    if (setuid(61234) != 0) _exit(2);  // the limit does not hold for root
+    _exit(message_of(answers([] { return 5; })).starts_with("a.png: no process can be started") ? 3 : 4);
+  };
+  EXPECT_EXIT(answer_without_processes(), testing::ExitedWithCode(3), "");
 }
 
 }  // namespace

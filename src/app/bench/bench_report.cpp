@@ -8,6 +8,7 @@
 #include <espalier/app/bench/bench_report.h>
 #include <espalier/app/version.h>
 #include <espalier/core/error.h>
+#include <espalier/core/files.h>
 
 namespace espalier {
 
@@ -94,10 +95,9 @@ std::string bench_to_json(const std::vector<BenchResult>& results, const std::ve
 }
 
 std::vector<OldBench> read_bench_json(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw_input_error("{}: no such file, expected a report of espalier bench --json", path.string());
+  const std::string text = read_file(path, kMostTextBytes);
   try {
-    const Json report = Json::parse(file);
+    const Json report = Json::parse(text);
     std::vector<OldBench> old;
     for (const Json& c : report.at("cases"))
       old.push_back({{c.at("species"), c.at("size_px"), c.at("leaves"), {}},

@@ -12,17 +12,17 @@
 
 #include <espalier/core/error.h>
 #include <espalier/environment/meshes/mesh_triangles.h>
-#include <espalier/environment/meshes/ply_counts.h>
+#include <espalier/environment/meshes/ply_head.h>
 #include <espalier/machine/child.h>
 
 namespace espalier {
 
 namespace {
 
-/// Of a mesh of so many bytes: a sound one takes a tenth of it.
+/// Of a mesh of so many bytes: a sound one takes a twentieth of it.
 ChildLimits limits_for(std::size_t bytes) {
   const double megabytes = static_cast<double>(bytes) / (1 << 20);
-  return {.cpu_s = 0.8 + 2 * megabytes,
+  return {.cpu_s = 0.3 + 2 * megabytes,
           .wall_s = 30 + 20 * megabytes,
           .memory_bytes = (std::size_t{128} << 20) + 100 * bytes};
 }
@@ -89,7 +89,7 @@ std::vector<Vec3> import_triangles(std::string_view bytes, const std::string& fo
 std::vector<Vec3> read_mesh_triangles(std::string_view bytes, const std::string& format,
                                       const std::string& subject, std::size_t most_triangles) {
   try {
-    check_ply_counts(bytes);
+    check_ply_head(bytes);
   } catch (const InputError& error) {
     throw_input_error("{}: {}", subject, error.what());
   }

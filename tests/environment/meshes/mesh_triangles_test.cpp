@@ -10,7 +10,7 @@
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
 #include <espalier/environment/meshes/mesh_triangles.h>
-#include <espalier/environment/meshes/ply_counts.h>
+#include <espalier/environment/meshes/ply_head.h>
 
 #include "support/mutations.h"
 #include "support/small_meshes.h"
@@ -20,7 +20,6 @@ namespace espalier {
 namespace {
 
 using testing::HasSubstr;
-using testing::Not;
 
 constexpr std::size_t kMany = 1000;
 
@@ -33,6 +32,7 @@ std::string fault_of(const std::string& bytes, const std::string& format) {
   try {
     triangles_of(bytes, format);
   } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith("mesh 'a'"));
     return error.what();
   }
   return "";
@@ -58,20 +58,17 @@ TEST_P(MeshFormats, ACubeHasItsTwelveTriangles) {
 
 TEST_P(MeshFormats, CutOffAnywhereItIsReadOrOneLine) {
   const std::string& bytes = GetParam().bytes;
-  for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 24) {
-    const std::string fault = fault_of(bytes.substr(0, size), GetParam().format);
-    if (!fault.empty()) EXPECT_THAT(fault, testing::StartsWith("mesh 'a'")) << size;
-  }
+  int refused = 0;
+  for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 24)
+    refused += !fault_of(bytes.substr(0, size), GetParam().format).empty();
+  EXPECT_GT(refused, 0);
 }
 
 TEST_P(MeshFormats, DamagedItIsReadOrOneLine) {
   std::mt19937 random(7);
   int refused = 0;
-  for (int i = 0; i < test::mutation_count(); ++i) {
-    const std::string fault = fault_of(test::mutate(GetParam().bytes, random), GetParam().format);
-    if (!fault.empty()) EXPECT_THAT(fault, testing::StartsWith("mesh 'a'")) << i;
-    refused += !fault.empty();
-  }
+  for (int i = 0; i < test::mutation_count(); ++i)
+    refused += !fault_of(test::mutate(GetParam().bytes, random), GetParam().format).empty();
   EXPECT_GT(refused, 0);
 }
 
@@ -119,7 +116,7 @@ TEST(MeshTriangles, OfOtherFilesNoneIsOpened) {
 
 TEST(MeshTriangles, TheFormatIsTheCallersChoice) {
   EXPECT_THAT(fault_of(test::off_cube(), "stl"), HasSubstr("not readable as a mesh"));
-  EXPECT_THAT(fault_of("solid a\nendsolid a\n", "obj"), Not(testing::IsEmpty()));
+  EXPECT_TRUE(triangles_of("solid a\nendsolid a\n", "obj").empty());
 }
 
 TEST(MeshTriangles, VerticesAreFinite) {

@@ -1,7 +1,7 @@
 #include <charconv>
 
 #include <espalier/core/error.h>
-#include <espalier/environment/meshes/ply_counts.h>
+#include <espalier/environment/meshes/ply_head.h>
 
 namespace espalier {
 
@@ -18,16 +18,17 @@ std::uintmax_t count_of(std::string_view line) {
 
 }  // namespace
 
-void check_ply_counts(std::string_view bytes) {
+void check_ply_head(std::string_view bytes) {
   if (!bytes.starts_with("ply")) return;
-  for (std::string_view head = bytes; !head.empty() && !head.starts_with("end_header");) {
+  for (std::string_view head = bytes; !head.starts_with("end_header");) {
     const std::size_t end = head.find_first_of("\r\n");
+    if (end == head.npos) throw_input_error("got no line 'end_header', expected one: it was cut off");
     std::string_view line = head.substr(0, end);
     while (line.ends_with(' ')) line.remove_suffix(1);
     if (count_of(line) > bytes.size())
       throw_input_error("got '{}' in a file of {} bytes, expected as many as it holds", line.substr(0, 60),
                         bytes.size());
-    head.remove_prefix(end == head.npos ? head.size() : end + 1);
+    head.remove_prefix(end + 1);
   }
 }
 
