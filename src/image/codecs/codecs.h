@@ -54,9 +54,6 @@ class PictureCodecs {
                                              std::string& error) const = 0;
   /// Of a file that can be opened.
   virtual int count_frames(const std::string& path, const std::string& reader) const = 0;
-  /// For a process that was forked, whose other threads are gone: from now on all is done by the one that
-  /// asks.
-  virtual void use_one_thread() const = 0;
   /// A PNG of 1, 3 or 4 channels of 8 bits (sRGB, opacity not multiplied in); `name` is for messages.
   virtual EncodedPicture encode_png(const std::string& name, int width_px, int height_px, int channels,
                                     const std::uint8_t* samples) const = 0;
@@ -66,7 +63,8 @@ class PictureCodecs {
 };
 
 /// Those there are, loaded when first asked for; threads may ask. Throws InternalError, which says where it
-/// looked, where the module is missing.
+/// looked, where the module is missing. From then on OpenImageIO works on the thread that asks it alone, in
+/// all of the program.
 const PictureCodecs& picture_codecs();
 
 /// Held with others by who encodes, alone by who forks a process that decodes: it must not inherit a lock of

@@ -123,8 +123,28 @@ std::unique_ptr<OIIO::ImageInput> open_file(const std::string& path, const std::
   return nullptr;
 }
 
+/// OpenEXR has threads of its own, which OpenImageIO starts and ends with the next file: with this one, of a
+/// pixel.
+void end_threads_of_exr() {
+  OIIO::attribute("exr_threads", -1);
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const auto output = OIIO::ImageOutput::create("openexr");
+  const float pixel = 0;
+  if (output && output->set_ioproxy(&memory) &&
+      output->open("pixel.exr", OIIO::ImageSpec(1, 1, 1, OIIO::TypeDesc::FLOAT)) &&
+      output->write_image(OIIO::TypeDesc::FLOAT, &pixel))
+    output->close();
+}
+
 class OpenImageIoCodecs : public PictureCodecs {
  public:
+  /// Pictures are decoded in forked processes, where threads of OpenImageIO's pool are not.
+  OpenImageIoCodecs() {
+    OIIO::attribute("threads", 1);
+    end_threads_of_exr();
+  }
+
   std::unique_ptr<PictureInput> open(const std::string& path, const std::string& reader, int frame,
                                      std::string& error) const override {
     auto input = open_file(path, reader, error);
@@ -140,11 +160,6 @@ class OpenImageIoCodecs : public PictureCodecs {
     int frames = 0;
     while (input && frames < kMostFrames && input->seek_subimage(frames, 0)) ++frames;
     return frames;
-  }
-
-  void use_one_thread() const override {
-    OIIO::attribute("threads", 1);
-    OIIO::attribute("exr_threads", -1);  // none beside the one that asks
   }
 
   EncodedPicture encode_png(const std::string& name, int width_px, int height_px, int channels,

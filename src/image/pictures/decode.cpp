@@ -74,9 +74,12 @@ LookedAt look_at(const fs::path& path) {
 /// Sound pictures take a tenth of the time. The averaged pixels, twice while they are turned, beside what
 /// readers have of a picture (libjpeg's coefficients, a GIF's canvas).
 ChildLimits limits_for(const LookedAt& looked, int frame) {
-  constexpr double kAveraged = double{kMaxDecodedSide} * kMaxDecodedSide;
-  const double megapixels = 1e-6 * looked.pixels, megabytes = 1e-6 * static_cast<double>(looked.file.bytes);
-  const double cpu_s = 0.8 + 0.4 * megapixels * std::max(1, std::min(frame, 10)) + 0.4 * megabytes;
+  constexpr double kAveraged = double{kMaxDecodedSide} * kMaxDecodedSide, kOfManyFrames = 25e6;
+  const bool has_one = frame == 1 || looked.file.reader == "png" || looked.file.reader == "jpeg";
+  const double pixels =
+      has_one ? looked.pixels : std::max(looked.pixels, std::min(100 * looked.pixels, kOfManyFrames));
+  const double megabytes = 1e-6 * static_cast<double>(looked.file.bytes);
+  const double cpu_s = 0.8 + 0.4e-6 * pixels + 0.4 * megabytes;
   return {.cpu_s = cpu_s,
           .wall_s = 30 + 10 * cpu_s,
           .memory_bytes = static_cast<std::size_t>(128e6 + 32 * std::min(looked.pixels, kAveraged) +
@@ -129,13 +132,10 @@ DecodedPicture receive_picture(Child& child, const fs::path& path) {
 }
 
 Child start_child(const LookedAt& looked, int frame) {
-  const PictureCodecs& codecs = picture_codecs();  // loaded once, for all children
+  picture_codecs();  // loaded once, for all children
   const std::unique_lock alone(picture_codecs_in_use());
   return Child(looked.file.path.string() + ": not readable as a picture", limits_for(looked, frame),
-               [&](const SendBytes& send) {
-                 codecs.use_one_thread();
-                 send_picture(read_frame(looked.file, frame), send);
-               });
+               [&](const SendBytes& send) { send_picture(read_frame(looked.file, frame), send); });
 }
 
 }  // namespace
