@@ -50,6 +50,12 @@ void keep_readers_of(const std::string& format, Assimp::Importer& importer) {
       importer.UnregisterLoader(importer.GetImporter(i));  // which is then ours: the child ends soon
 }
 
+/// Assimp's importers put what was thrown in words.
+[[noreturn]] void throw_unreadable(const std::string& reason, const std::string& subject) {
+  if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
+  throw_input_error("{}: not readable as a mesh: {}", subject, reason);
+}
+
 Vec3 vertex_of(const aiMesh& mesh, const aiFace& face, unsigned corner, const std::string& subject) {
   const unsigned index = face.mIndices[corner];
   if (index >= mesh.mNumVertices)
@@ -68,7 +74,7 @@ std::vector<Vec3> import_triangles(std::string_view bytes, const std::string& fo
   importer.SetIOHandler(new NoFiles);  // which the importer then owns
   const aiScene* scene = importer.ReadFileFromMemory(
       bytes.data(), bytes.size(), aiProcess_Triangulate | aiProcess_PreTransformVertices, format.c_str());
-  if (!scene) throw_input_error("{}: not readable as a mesh: {}", subject, importer.GetErrorString());
+  if (!scene) throw_unreadable(importer.GetErrorString(), subject);
   std::vector<Vec3> triangles;
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
     const aiMesh& mesh = *scene->mMeshes[m];

@@ -106,6 +106,9 @@ void LuaState::call(int arguments, int results) {
   if (status == LUA_ERRMEM && usage_->is_over())
     throw_input_error("Lua ran for more than {} instructions, expected it to end sooner",
                       usage_->limits.lua_instructions);
+  if (status == LUA_ERRMEM)
+    throw_input_error("{}, expected Lua to need at most {} MB, and strings of 1 MB", message,
+                      usage_->limits.lua_memory_bytes >> 20);
   throw InputError(message);
 }
 

@@ -28,7 +28,7 @@ std::filesystem::path note_file(const std::string& name, const Source& source) {
   std::filesystem::path path = source.folder / name;
   std::error_code none;
   if (std::filesystem::is_other(path, none))
-    throw_input_error("{}: is no regular file, expected one", path.string());
+    throw_input_error("{}: is a pipe or a device, expected a file", path.string());
   const std::uintmax_t bytes =
       std::filesystem::is_regular_file(path, none) ? std::filesystem::file_size(path, none) : 0;
   ReadSoFar& so_far = *source.so_far;

@@ -267,7 +267,7 @@ TEST_F(ReadFilesOfAnyKind, PipesAndDevicesAreRefused) {
   for (const std::string& path : {pipe, zero, write("a.lsys", "include \"pipe.lsys\"\naxiom: A\n"),
                                   write("b.lsys", "include \"zero.lsys\"\naxiom: A\n"),
                                   write("c.lsys", "plant p = \"pipe.lsys\"\naxiom: A\n")})
-    EXPECT_NE(read(path).find("is no regular file, expected one"), std::string::npos) << read(path);
+    EXPECT_NE(read(path).find("is a pipe or a device, expected a file"), std::string::npos) << read(path);
 }
 
 TEST_F(ReadFilesOfAnyKind, IncludesAreBounded) {

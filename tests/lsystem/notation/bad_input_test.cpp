@@ -217,7 +217,7 @@ TEST(Sandbox, LimitsNameTheirPlace) {
   EXPECT_EQ(
       message_of("axiom: A\nlua:\n  function on_start() local x = 'x' while true do x = x .. x end end\n",
                  limits),
-      "on_start: not enough memory");
+      "on_start: not enough memory, expected Lua to need at most 4 MB, and strings of 1 MB");
 }
 
 TEST(BadFilesOfSize, AreQuotedInPart) {
