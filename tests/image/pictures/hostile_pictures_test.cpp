@@ -58,7 +58,8 @@ TEST_P(HostilePictures, DamagedTheyAreReadOrOneLine) {
   ASSERT_EQ(fault_of("a." + extension, sound), "");
   std::mt19937 random(7);
   int refused = 0;
-  for (int i = 0; i < test::mutation_count(); ++i) refused += !fault_of("a." + extension, test::mutate(sound, random)).empty();
+  for (int i = 0; i < test::mutation_count(); ++i)
+    refused += !fault_of("a." + extension, test::mutate(sound, random)).empty();
   EXPECT_GT(refused, 0);
 }
 
@@ -96,6 +97,9 @@ TEST_F(HostilePictures, AJpegDoesNotGoOverItsPixelsWithoutEnd) {
   EXPECT_THAT(fault_of("a.jpg", jpeg_of_empty_scans(1000)),
               HasSubstr("claims 1000 scans of 100000000 pixels"));
   EXPECT_THAT(fault_of("a.jpg", jpeg_of_empty_scans(99)), HasSubstr("claims 99 scans"));
+  std::string small = jpeg_of_empty_scans(101);
+  small.replace(small.find("\x27\x10\x27\x10"), 4, std::string("\0\x40\0\x40", 4));
+  EXPECT_THAT(fault_of("a.jpg", small), HasSubstr("claims 101 scans of 4096 pixels"));
 }
 
 TEST_F(HostilePictures, ClaimsOfTilesAreNotBelieved) {
