@@ -125,7 +125,8 @@ TEST(SpeciesCommand, RefusesABillionBranches) {
 }
 
 TEST(SpeciesCommand, RefusesDeepNestingWithoutACrash) {
-  expect_refused("a = " + std::string(400'000, '[') + "\n", "my.toml:1: got keys, tables or arrays nested more than 100 deep");
+  expect_refused("a = " + std::string(400'000, '[') + "\n",
+                 "my.toml:1: got keys, tables or arrays nested more than 100 deep");
 }
 
 }  // namespace

@@ -168,7 +168,8 @@ TEST(Surroundings, FilesAreReadFromTheFolderOnly) {
   EXPECT_NE(message("volume v = picture(\"text.png\", 3)").find("a.lsys:1:21: "), std::string::npos);
   for (const char* pipe : {"pipe.png", "pipe.lsys", "pipe.patch"})
     ASSERT_EQ(::mkfifo((folder / pipe).c_str(), 0600), 0);
-  EXPECT_NE(message("field f = picture(\"pipe.png\", 0,0,1)").find("is a pipe or a device"), std::string::npos);
+  EXPECT_NE(message("field f = picture(\"pipe.png\", 0,0,1)").find("is a pipe or a device"),
+            std::string::npos);
   for (const char* line : {"include \"pipe.lsys\"", "plant p = \"pipe.lsys\"", "surface s = \"pipe.patch\""})
     EXPECT_NE(message(line).find("is a pipe or a device"), std::string::npos) << line;
   EXPECT_NE(message("field f = picture(\"no.png\", 0,0,1)").find("a.lsys:1:20: "), std::string::npos);
