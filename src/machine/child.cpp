@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <cstring>
 #include <exception>
+#include <filesystem>
+#include <iterator>
 #include <new>
 #include <string_view>
 #include <utility>
@@ -139,6 +141,13 @@ void do_work(const std::function<void(const SendBytes&)>& work, int data, int wo
 }
 
 }  // namespace
+
+bool forked_children_can_allocate() {
+  if (!has_sanitizer()) return true;
+  std::error_code none;
+  const std::filesystem::directory_iterator threads("/proc/self/task", none);
+  return std::distance(begin(threads), end(threads)) <= 1;
+}
 
 Child::Child(std::string subject, const ChildLimits& limits,
              const std::function<void(const SendBytes&)>& work)

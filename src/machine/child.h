@@ -18,6 +18,10 @@ struct ChildLimits {
   std::size_t memory_bytes = 256 << 20;  ///< beside what the process has already; none with sanitizers
 };
 
+/// Always, but in builds with a sanitizer beside other threads: its allocator has locks that a child inherits
+/// from threads which it has not, and waits for. Tests alone meet that.
+bool forked_children_can_allocate();
+
 /// Hands `count` bytes to the parent.
 using SendBytes = std::function<void(const void* bytes, std::size_t count)>;
 

@@ -16,7 +16,6 @@
 #include <espalier/image/pictures/picture_frames.h>
 #include <espalier/image/pictures/picture_size.h>
 #include <espalier/machine/child.h>
-#include <espalier/machine/child_rights.h>
 
 namespace espalier {
 
@@ -142,10 +141,8 @@ Child start_child(const LookedAt& looked, int frame) {
                [&](const SendBytes& send) { send_picture(read_frame(looked.file, frame), send); });
 }
 
-/// Sanitizers keep locks in their allocator that a forked process inherits from other threads, and waits for:
-/// builds with them decode here.
 DecodedPicture decoded_apart(const LookedAt& looked, int frame) {
-  if (has_sanitizer()) return read_frame(looked.file, frame);
+  if (!forked_children_can_allocate()) return read_frame(looked.file, frame);
   Child child = start_child(looked, frame);
   return receive_picture(child, looked.file.path);
 }
