@@ -41,6 +41,9 @@ std::string parse_file_name(Cursor& cursor) {
   const std::size_t end = cursor.rest().find('"');
   if (end == std::string_view::npos) cursor.fail("'\"' after the file's name");
   std::string name(cursor.rest().substr(0, end));
+  for (const char byte : name)
+    if (static_cast<unsigned char>(byte) < 32)
+      cursor.fail("a file's name without line breaks and control characters");
   cursor.go_to(cursor.at() + end + 1);
   return name;
 }

@@ -7,7 +7,7 @@
 
 namespace espalier::lsystem {
 
-/// A name in quotes, of a file.
+/// A name in quotes, of a file; without control characters, as messages quote it.
 std::string parse_file_name(Cursor& cursor);
 
 /// After "colors:": 8b5a2b 2e7d32 …

@@ -288,6 +288,12 @@ TEST_F(ReadFilesOfAnyKind, IncludesAreBounded) {
             std::string::npos);
 }
 
+TEST_F(ReadFilesOfAnyKind, NamesOverSeveralLinesAreRefused) {
+  const std::string message = read(write("lines.lsys", "include \"a\nb.lsys\"\naxiom: A\n"));
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+  EXPECT_NE(message.find("lines.lsys:1:10: "), std::string::npos) << message;
+}
+
 TEST_F(ReadFilesOfAnyKind, PlantsOfAFileShareTheirLimits) {
   write("p.lsys", "axiom: A\nlua:\n  for i = 1, 4e7 do end\n");
   const std::string path =
