@@ -2,7 +2,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <bit>
 #include <boost/crc.hpp>
 #include <cerrno>
 #include <cstddef>
@@ -12,6 +11,7 @@
 
 #include <espalier/core/error.h>
 #include <espalier/core/files.h>
+#include <espalier/core/text/text_hash.h>
 #include <espalier/fitting/search/evaluation_log.h>
 
 namespace espalier {
@@ -120,12 +120,9 @@ LogContent read_evaluation_log(const std::filesystem::path& path) {
 
 std::uint32_t hash_values(const ParameterTable& table, const ParameterValues& values) {
   const std::vector<bool> in_use = rows_in_use(table, values);
-  std::uint64_t hash = 0xcbf29ce484222325ull;
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    if (!in_use[row]) continue;
-    for (std::uint64_t bits = std::bit_cast<std::uint64_t>(values[row]), i = 0; i < 8; ++i, bits >>= 8)
-      hash = (hash ^ (bits & 0xff)) * 0x100000001b3ull;
-  }
+  std::uint64_t hash = kHashOfNothing;
+  for (std::size_t row = 0; row < values.size(); ++row)
+    if (in_use[row]) hash = hash_on(hash, {reinterpret_cast<const char*>(&values[row]), sizeof values[row]});
   return static_cast<std::uint32_t>(hash ^ (hash >> 32));
 }
 

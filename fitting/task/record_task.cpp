@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <espalier/core/field_error.h>
+#include <espalier/core/text/text_hash.h>
 #include <espalier/environment/picture_envelope.h>
 #include <espalier/fitting/picture/crown.h>
 #include <espalier/fitting/task/record_task.h>
@@ -15,10 +16,10 @@ namespace espalier {
 
 namespace {
 
-/// FNV-1a over the bits of a mask and its labels, and the height of its tree.
+/// Over the bits of a mask and its labels, and the height of its tree.
 std::uint64_t hash_target(const TargetPicture& target, std::uint64_t hash) {
   const auto add = [&hash](std::uint64_t word) {
-    for (int i = 0; i < 8; ++i, word >>= 8) hash = (hash ^ (word & 0xff)) * 0x100000001b3ull;
+    hash = hash_on(hash, {reinterpret_cast<const char*>(&word), sizeof word});
   };
   for (const Mask* mask : {&target.mask, &target.labels.leaf, &target.labels.wood})
     for (const std::uint64_t word : mask->words()) add(word);

@@ -1,9 +1,8 @@
 // The chart as SVG 1.1: one element a stroke or label.
 #include <fmt/format.h>
 
-#include <cstdint>
-
 #include <espalier/charts/chart_layout.h>
+#include <espalier/core/text/base64.h>
 
 namespace espalier {
 
@@ -45,20 +44,6 @@ std::string label_to_svg(const ChartLabel& label) {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", label.at.x_px,
                      label.at.y_px + 5, kAnchors[static_cast<int>(label.anchor)], turned,
                      escape_xml(label.text));
-}
-
-/// The encoding of RFC 4648, §4.
-std::string base64(const std::string& bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k > bytes.size() ? '=' : kDigits[word >> (18 - 6 * k) & 63];
-  }
-  return text;
 }
 
 std::string image_to_svg(const ChartImage& image) {

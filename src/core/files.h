@@ -30,7 +30,6 @@ bool is_temporary_name(const std::filesystem::path& path);
 void remove_temporary_files(const std::filesystem::path& directory);
 
 inline constexpr std::uintmax_t kMostFileBytes = std::uintmax_t{2} << 30;
-inline constexpr std::uintmax_t kMostTextBytes = 4 << 20;  ///< of what a person writes: a model, a preset
 
 /// The whole file, which is a regular one: pipes and devices, which may never end, are not opened. Throws
 /// InputError with one line (path and reason) where it cannot be read, or has more than `most_bytes`.

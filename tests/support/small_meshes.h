@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <espalier/core/text/base64.h>
+
 namespace espalier::test {
 
 inline constexpr std::array<std::array<int, 3>, 12> kCubeTriangles{{{0, 2, 1},
@@ -108,19 +110,6 @@ inline std::string gltf_numbers() {
   for (const auto& triangle : kCubeTriangles)
     for (const int i : triangle) bytes += raw(static_cast<std::uint16_t>(i));
   return bytes;  // 96 + 72
-}
-
-inline std::string base64(const std::string& bytes) {
-  static constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k <= bytes.size() ? kDigits[word >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
 }
 
 /// `nodes`: the JSON of the nodes, the first of which is the scene's; `uri` of the numbers, empty: in the

@@ -95,7 +95,8 @@ std::string bench_to_json(const std::vector<BenchResult>& results, const std::ve
 }
 
 std::vector<OldBench> read_bench_json(const std::filesystem::path& path) {
-  const std::string text = read_file(path, kMostTextBytes);
+  constexpr std::uintmax_t kMostBytes = 4 << 20;
+  const std::string text = read_file(path, kMostBytes);
   try {
     const Json report = Json::parse(text);
     std::vector<OldBench> old;

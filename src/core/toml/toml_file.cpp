@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <fstream>
 #include <system_error>
 
 #include <espalier/core/error.h>
+#include <espalier/core/files.h>
 #include <espalier/core/text/one_line.h>
 #include <espalier/core/text/utf8.h>
 #include <espalier/core/toml/toml_depth.h>
@@ -44,11 +44,7 @@ std::string short_line(std::string_view text) {
 
 std::string read_toml_text(const fs::path& path) {
   check_readable(path);
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw_input_error("{}: cannot be read, expected a readable TOML file", path.string());
-  std::string text(kMaxTomlBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
+  std::string text = read_beginning(path, kMaxTomlBytes + 1);
   check_text(path, text);
   return text;
 }

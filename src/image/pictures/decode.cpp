@@ -45,10 +45,9 @@ struct LookedAt {
 /// Each scan of a progressive JPEG goes over all its pixels.
 void check_scans(const fs::path& path, std::string_view bytes, double pixels) {
   if (is_jpeg_without_end(bytes)) throw_input_error("{}: is a JPEG that was cut off", path.string());
-  constexpr double kMostPixelsPerByte = 10'000;
   const std::size_t scans = count_jpeg_scans(bytes);
   if (scans > kMostScans ||
-      static_cast<double>(scans) * pixels > kMostPixelsPerByte * static_cast<double>(bytes.size()))
+      static_cast<double>(scans) * pixels > kMaxPixelsPerByte * static_cast<double>(bytes.size()))
     throw_input_error("{}: claims {} scans of {} pixels in {} bytes, expected a picture", path.string(),
                       scans, pixels, bytes.size());
 }

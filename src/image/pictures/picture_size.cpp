@@ -8,8 +8,6 @@ namespace espalier {
 
 void check_picture_size(const std::filesystem::path& path, std::uintmax_t bytes, double width_px,
                         double height_px, int layers) {
-  constexpr double kMaxPixelsPerByte =
-      10'000;  // deflate packs at most 8 · 1032 pixels of one bit into a byte
   const double pixels = width_px * height_px * std::max(1, layers);
   if (pixels > static_cast<double>(kMaxSourcePixels) || layers > 1)
     throw_input_error("{}: claims {}×{}×{} pixels, expected at most {} in one layer", path.string(), width_px,

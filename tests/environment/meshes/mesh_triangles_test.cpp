@@ -88,7 +88,7 @@ TEST(MeshTriangles, NestedWithoutEndTheyAreOneLine) {
               HasSubstr("not readable as a mesh"));
   std::string chain;
   for (int i = 1; i < 100'000; ++i) chain += R"({"children":[)" + std::to_string(i) + "]},";
-  const std::string uri = "data:application/octet-stream;base64," + test::base64(test::gltf_numbers());
+  const std::string uri = "data:application/octet-stream;base64," + base64(test::gltf_numbers());
   EXPECT_THAT(fault_of(test::gltf(uri, chain + R"({"mesh":0})"), "gltf"),
               HasSubstr("not readable as a mesh"));
   std::string doubling;  // ten children each: 10¹² cubes

@@ -124,10 +124,11 @@ TEST(RandomFiles, EndInADerivationOrOneLine) {
   }));
 }
 
-/// What the fuzzer found once: tests/fuzz/corpus.
+/// What the fuzzer found once: tests/fuzz/seeds/lsystem.
 TEST(RandomFiles, EarlierFindsStayRepaired) {
   const ScratchFolder folder;
-  for (const auto& entry : std::filesystem::directory_iterator(ESPALIER_SOURCE_DIR "/tests/fuzz/corpus")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(ESPALIER_SOURCE_DIR "/tests/fuzz/seeds/lsystem")) {
     SCOPED_TRACE(entry.path().filename().string());
     const std::string text = read_file(entry.path());
     const bool is_several = text.find("\n=== ") != std::string::npos;
