@@ -24,8 +24,8 @@ namespace espalier {
 
 namespace {
 
-constexpr int kLookEvery_ms = 20;               // at its limits
-constexpr double kLongestEnd_s = 1;             // from the last byte to the status
+constexpr int kLookEveryMs = 20;                // at its limits
+constexpr double kLongestEndS = 1;              // from the last byte to the status
 constexpr std::size_t kMostWords = 2048;        // less than a pipe takes at once
 constexpr double kSlownessWithSanitizers = 10;  // of the work
 
@@ -191,7 +191,7 @@ void Child::end() {
 /// Until there is something to read, or the other end is closed.
 void Child::wait_for(int descriptor) {
   pollfd waiting{.fd = descriptor, .events = POLLIN, .revents = 0};
-  while (poll(&waiting, 1, kLookEvery_ms) <= 0) {
+  while (poll(&waiting, 1, kLookEveryMs) <= 0) {
     const bool is_too_long = seconds_of(CLOCK_MONOTONIC) - start_s_ > limits_.wall_s;
     if (!is_too_long && processor_seconds(process_) <= limits_.cpu_s) continue;
     end();
@@ -227,7 +227,7 @@ std::string Child::words() {
 
 /// For the status of one that has closed its pipes.
 void Child::await_end() {
-  const double latest_s = seconds_of(CLOCK_MONOTONIC) + kLongestEnd_s;
+  const double latest_s = seconds_of(CLOCK_MONOTONIC) + kLongestEndS;
   while (!has_status_ && seconds_of(CLOCK_MONOTONIC) < latest_s) {
     const pid_t ended = waitpid(process_, &status_, WNOHANG);
     if (ended < 0 && errno != EINTR) status_ = 0;
