@@ -165,20 +165,30 @@ CrownReading read_crown(const Mask& mask, const PictureReading& reading) {
           .shape_below = fit_shape(below).shape};
 }
 
-std::string crown_text(const CrownReading& crown, double height_m) {
+CrownShape crown_shape_of(const CrownReading& crown, double height_m) {
+  const auto m = [&](double share) { return static_cast<float>(height_m * share); };
   const auto apex_x = [&](double x) {
-    return std::clamp(x, -0.9 * crown.radius_left, 0.9 * crown.radius_right);
+    return m(std::clamp(x, -0.9 * crown.radius_left, 0.9 * crown.radius_right));
   };
-  const auto m = [&](double share) { return fmt::format("{:.3g}", height_m * share); };
+  const float depth_radius_m = m((crown.radius_right + crown.radius_left) / 2),
+              depth_rim_m = m((crown.rim_right + crown.rim_left) / 2);
+  return {.top_m = {apex_x(crown.top_x), 0, m(crown.top)},
+          .bottom_m = {apex_x(crown.base_x), 0, m(crown.base)},
+          .radius_m = {m(crown.radius_right), depth_radius_m, m(crown.radius_left), depth_radius_m},
+          .rim_m = {m(crown.rim_right), depth_rim_m, m(crown.rim_left), depth_rim_m},
+          .shape_above = static_cast<float>(crown.shape_above),
+          .shape_below = static_cast<float>(crown.shape_below)};
+}
+
+std::string crown_text(const CrownReading& crown, double height_m) {
+  const CrownShape shape = crown_shape_of(crown, height_m);
   return fmt::format(
-      "crown(top = {}, top_x = {}, bottom = {}, bottom_x = {}, radius = {}, radius_right = {}, radius_left = "
-      "{}, "
-      "rim = {}, "
-      "rim_right = {}, rim_left = {}, shape_above = {:.2f}, shape_below = {:.2f})",
-      m(crown.top), m(apex_x(crown.top_x)), m(crown.base), m(apex_x(crown.base_x)),
-      m((crown.radius_right + crown.radius_left) / 2), m(crown.radius_right), m(crown.radius_left),
-      m((crown.rim_right + crown.rim_left) / 2), m(crown.rim_right), m(crown.rim_left), crown.shape_above,
-      crown.shape_below);
+      "crown(top = {:.3g}, top_x = {:.3g}, bottom = {:.3g}, bottom_x = {:.3g}, radius = {:.3g}, "
+      "radius_right = {:.3g}, radius_left = {:.3g}, rim = {:.3g}, rim_right = {:.3g}, rim_left = {:.3g}, "
+      "shape_above = {:.2f}, shape_below = {:.2f})",
+      shape.top_m.z, shape.top_m.x, shape.bottom_m.z, shape.bottom_m.x, shape.radius_m[1], shape.radius_m[0],
+      shape.radius_m[2], shape.rim_m[1], shape.rim_m[0], shape.rim_m[2], shape.shape_above,
+      shape.shape_below);
 }
 
 }  // namespace espalier

@@ -3,6 +3,7 @@
 #pragma once
 #include <string>
 
+#include <espalier/environment/crown_envelope.h>
 #include <espalier/fitting/picture/picture_reading.h>
 
 namespace espalier {
@@ -18,8 +19,10 @@ struct CrownReading {
 /// where it is widest. Throws InputError for a mask without a crown: of less than three rows.
 CrownReading read_crown(const Mask& mask, const PictureReading& reading);
 
-/// The volume of a tree `height_m` tall, as text: "crown(top = 12, bottom = 3, …)". Its front and back, which
-/// are not seen, are as the mean of its sides.
+/// That of a tree `height_m` tall. Its front and back, which are not seen, are as the mean of its sides.
+CrownShape crown_shape_of(const CrownReading& crown, double height_m);
+
+/// The same as text: "crown(top = 12, bottom = 3, …)".
 std::string crown_text(const CrownReading& crown, double height_m);
 
 }  // namespace espalier

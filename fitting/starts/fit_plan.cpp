@@ -3,6 +3,7 @@
 
 #include <espalier/core/field_error.h>
 #include <espalier/fitting/branches/palm_trunk.h>
+#include <espalier/fitting/picture/crown_reading.h>
 #include <espalier/fitting/starts/fit_plan.h>
 #include <espalier/fitting/starts/measured_start.h>
 #include <espalier/fitting/starts/species_range.h>
@@ -114,6 +115,7 @@ class Planner {
                                                        record_.growth, height_m_, task_.plant_seeds.front());
     for (StartPoint& start : starts) {
       if (is_read() && starts_are_ours()) measure(start.values);
+      if (gets_crown(start)) task_.model->set_crown(crown_of_picture(), start.values);
       keep_in_ranges(table_, plan_.choice, start.values);
       if (trunk_) fix_trunk(start.values);
       apply_fixed(table_, plan_.choice, start.values);
@@ -125,6 +127,17 @@ class Planner {
     const Seed seed = task_.plant_seeds.front();
     take_measures(*task_.model, record_.growth, reading_, height_m_, seed, values);
     prepare_start(*task_.model, record_.growth, height_m_, seed, values);
+  }
+
+  /// Whether it is the user who gives this start a crown envelope, which then begins as the picture's. Only
+  /// from the front does a picture show its left and its right.
+  bool gets_crown(const StartPoint& start) const {
+    const bool is_front = record_.views.front().view.azimuth_deg == 0;
+    return is_read() && is_front && start_.source != StartSource::random && !start.has_own_crown &&
+           task_.model->uses_crown(start.values);
+  }
+  CrownShape crown_of_picture() const {
+    return crown_shape_of(read_crown(task_.views.front().target.mask(), reading_), height_m_);
   }
 
   /// Fronds stay as long as they are while the trunk gets another length.

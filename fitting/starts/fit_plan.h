@@ -31,7 +31,9 @@ struct FitPlan {
   /// species is named, what that allows (species_range.h).
   SearchChoice choice;
   /// The record's starts, of a palm those with fronds: thinned, as tall as the target, and to the measure of
-  /// the picture. Presets that are named are as they are written where nothing is searched.
+  /// the picture. Where the choice fixes that they use a crown envelope, and they had none, it is the
+  /// picture's, but for what else is fixed. Presets that are named are as they are written where nothing is
+  /// searched.
   std::vector<StartPoint> starts;
   /// Of all candidates: the trunk of a palm, which lies on the picture's (branches/palm_trunk.h).
   Overrides held;

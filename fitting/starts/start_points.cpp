@@ -96,7 +96,10 @@ std::vector<StartPoint> make_start_points(const Model& model, const StartNames& 
       take_leaves(table, points.back().values);
     }
   }
-  for (StartPoint& point : points) apply_fixed(table, choice, point.values);
+  for (StartPoint& point : points) {
+    point.has_own_crown = model.uses_crown(point.values);
+    apply_fixed(table, choice, point.values);
+  }
   return points;
 }
 

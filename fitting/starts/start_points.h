@@ -16,7 +16,8 @@ namespace espalier {
 struct StartPoint {
   std::string name;  ///< "quaking_aspen", "quaking_aspen without leaves"
   ParameterValues values;
-  Overrides overrides = {};  ///< of a preset as it is written
+  Overrides overrides = {};    ///< of a preset as it is written
+  bool has_own_crown = false;  ///< an envelope that does something before any value is fixed
 };
 
 /// Makes a candidate of any plant: its size does not vary, counts may be relaxed, it is thinned until this

@@ -19,6 +19,7 @@ class ChangeCursor;                  // overrides/change_graph.h
 class ChangeGraph;                   // the same
 enum class Quantity : std::uint8_t;  // overrides/branch_change.h
 class Volume;                        // environment/volume.h
+struct CrownShape;                   // environment/crown_envelope.h
 
 /// How large a plant may get. A candidate beyond it is refused before it is grown.
 struct GrowthBudget {
@@ -85,6 +86,15 @@ class Model {
   virtual bool can_change(Quantity) const { return has_branch_paths(); }
   /// Whether crowns of single branches give the stems on them their lengths.
   virtual bool has_branch_crowns() const { return false; }
+  /// Whether a plant of these values has a crown envelope that does something.
+  virtual bool uses_crown(std::span<const double> values) const {
+    (void)values;
+    return false;
+  }
+  /// Gives a plant this crown envelope, as nearly as its rows can say it. Whether it is used stays as it is.
+  virtual void set_crown(const CrownShape& crown, ParameterValues& values) const {
+    (void)crown, (void)values;
+  }
   /// Whether the model follows `train`: it can grow into a volume.
   virtual bool can_train() const { return false; }
   virtual BranchLimits branch_limits(std::span<const double> values) const {

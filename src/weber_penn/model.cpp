@@ -6,6 +6,7 @@
 #include <espalier/weber_penn/grow.h>
 #include <espalier/weber_penn/model.h>
 #include <espalier/weber_penn/table/parameters.h>
+#include <espalier/weber_penn/tree_crown.h>
 
 namespace espalier {
 
@@ -21,6 +22,12 @@ class WeberPennModel : public Model {
 
   bool has_branch_paths() const override { return true; }
   bool has_branch_crowns() const override { return true; }
+  bool uses_crown(std::span<const double> values) const override {
+    return weber_penn_parameters(values).crown_use != 0;
+  }
+  void set_crown(const CrownShape& crown, ParameterValues& values) const override {
+    set_crown_rows(crown, values);
+  }
   bool can_train() const override { return true; }
 
   std::vector<std::string> palm_presets() const override { return {"palm", "fan_palm"}; }

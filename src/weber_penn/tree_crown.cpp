@@ -50,6 +50,11 @@ float offset_m(float share, float positive_radius_m, float negative_radius_m) {
   return share * (share > 0 ? positive_radius_m : negative_radius_m);
 }
 
+/// The inverse of offset_m().
+float share_of_offset(float offset_m, float positive_radius_m, float negative_radius_m) {
+  return offset_m / (offset_m > 0 ? positive_radius_m : negative_radius_m);
+}
+
 }  // namespace
 
 CrownShape crown_shape(const WeberPennParameters& p, float tree_scale_m) {
@@ -68,6 +73,30 @@ CrownShape crown_shape(const WeberPennParameters& p, float tree_scale_m) {
   crown.shape_above = p.crown_shape_above;
   crown.shape_below = p.crown_shape_below;
   return crown;
+}
+
+void set_crown_rows(const CrownShape& crown, ParameterValues& values) {
+  const ParameterTable& table = weber_penn_table();
+  const float scale_m = static_cast<float>(values[table.index_of("g_scale")]);
+  const auto set = [&](std::string_view name, float value) {
+    const std::size_t row = table.index_of(name);
+    values[row] = nearest_valid_value(table.rows[row], value);
+  };
+  const auto [right_m, back_m, left_m, front_m] = crown.radius_m;
+  set("crown_top", crown.top_m.z / scale_m);
+  set("crown_top_x", share_of_offset(crown.top_m.x, right_m, left_m));
+  set("crown_top_y", share_of_offset(crown.top_m.y, back_m, front_m));
+  set("crown_bottom", crown.bottom_m.z / crown.top_m.z);
+  set("crown_bottom_x", share_of_offset(crown.bottom_m.x, right_m, left_m));
+  set("crown_bottom_y", share_of_offset(crown.bottom_m.y, back_m, front_m));
+  constexpr std::array kSides{"right", "back", "left", "front"};
+  for (std::size_t side = 0; side < kSides.size(); ++side) {
+    const float rim = (crown.rim_m[side] - crown.bottom_m.z) / (crown.top_m.z - crown.bottom_m.z);
+    set(std::string("crown_radius_") + kSides[side], crown.radius_m[side] / scale_m);
+    set(std::string("crown_rim_") + kSides[side], rim);
+  }
+  set("crown_shape_above", crown.shape_above);
+  set("crown_shape_below", crown.shape_below);
 }
 
 float length_to_crown_m(const GrowingStem& stem, const PlacedCrown& crown, const WeberPennParameters& p) {

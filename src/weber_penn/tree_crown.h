@@ -13,6 +13,10 @@ enum class CrownUse { off, cut, length, train };
 /// The envelope of a tree of this scale. All values of the rows make one.
 CrownShape crown_shape(const WeberPennParameters& parameters, float tree_scale_m);
 
+/// Its inverse: sets the rows so that a tree of its mean scale has this envelope, or the nearest that they
+/// can say.
+void set_crown_rows(const CrownShape& crown, ParameterValues& values);
+
 /// The length of a stem at which its tip is on the envelope: as its shape does not depend on its length, that
 /// is how far the envelope reaches from its base in the direction of its tip, over how far its tip is away
 /// per length. Where it splits, the first tip that meets the envelope counts. 0 where the envelope is not

@@ -224,5 +224,32 @@ TEST(TreeCrown, TheEstimateOfStemsFollowsTheCrown) {
   }
 }
 
+/// Rows of crowns, each anywhere in its range of search.
+RC_GTEST_PROP(TreeCrown, RowsThatAreSetFromAnEnvelopeMakeIt, ()) {
+  const ParameterTable& table = weber_penn_table();
+  ParameterValues values = table.defaults(), read_back = table.defaults();
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const ParameterInfo& info = table.rows[row];
+    if (info.name.rfind("crown_", 0) != 0 || info.name == "crown_use") continue;
+    const double share = 1e-3 * *rc::gen::inRange(0, 1001);
+    values[row] = std::lerp(info.search_lower, info.search_upper, share);
+  }
+  const auto scale_m = 0.1f * static_cast<float>(*rc::gen::inRange(5, 400));
+  read_back[table.index_of("g_scale")] = scale_m;
+  set_crown_rows(crown_shape(weber_penn_parameters(values), scale_m), read_back);
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    if (table.rows[row].name != "g_scale" && table.rows[row].name != "crown_use")
+      RC_ASSERT(std::fabs(read_back[row] - values[row]) < 2e-5);
+  RC_ASSERT(read_back[table.index_of("crown_use")] == table.defaults()[table.index_of("crown_use")]);
+}
+
+TEST(TreeCrown, RowsThatAreSetFromAnEnvelopeAreValid) {
+  const ParameterTable& table = weber_penn_table();
+  ParameterValues values = table.defaults();
+  set_crown_rows({.top_m = {9, 0, 1000}, .bottom_m = {0, 0, 999}, .radius_m = {10, 1000, 1e-3f, 1}}, values);
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    EXPECT_TRUE(is_valid_value(table.rows[row], values[row])) << table.rows[row].full_name();
+}
+
 }  // namespace
 }  // namespace espalier

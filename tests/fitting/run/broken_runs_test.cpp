@@ -8,8 +8,11 @@
 
 #include <espalier/core/error.h>
 #include <espalier/core/random.h>
+#include <espalier/fitting/branches/branch_rounds.h>
 #include <espalier/fitting/run/fit.h>
+#include <espalier/fitting/search/evaluation_log.h>
 #include <espalier/machine/directory_lock.h>
+#include <espalier/models/models.h>
 
 #include "support/temporary_folders.h"
 
@@ -156,6 +159,47 @@ TEST_F(BrokenRun, WithAnyOtherBitIsRefusedOrEndsTheSame) {
       EXPECT_EQ(refused.find('\n'), std::string::npos);
       if (refused == "none") expect_same_result();
     }
+}
+
+/// Calls `look` with the file's bytes once for each of their bits, which is another one then.
+template <typename Look>
+void for_each_other_bit(const fs::path& file, const Look& look) {
+  std::string bytes = read_text_file(file);
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    const auto flip = [&] { bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << bit % 8)); };
+    flip();
+    std::ofstream(file, std::ios::binary) << bytes;
+    try {
+      look(bytes);
+    } catch (const InputError&) {  // noticed
+    }
+    flip();
+    if (testing::Test::HasFailure()) FAIL() << file << ", bit " << bit;
+  }
+}
+
+/// All that goes on with a run reads, but for pictures and models, whose hashes the record holds: FNV-1a has
+/// another value for each other bit, since each of its steps is a bijection.
+TEST_F(BrokenRun, EachOtherBitOfItsStateIsNoticedOrWithoutEffect) {
+  const RecordedRun unbroken = read_record(run / "run.toml");
+  for_each_other_bit(run / "run.toml", [&](const std::string&) {
+    const RecordedRun read = read_record(run / "run.toml");
+    EXPECT_TRUE(record_to_toml(read.record, read.outcome) ==
+                record_to_toml(unbroken.record, unbroken.outcome));
+  });
+  const auto logged = read_evaluation_log(run / "evaluations.bin").evaluations;
+  for_each_other_bit(run / "evaluations.bin", [&](const std::string&) {
+    const LogContent read = read_evaluation_log(run / "evaluations.bin");
+    EXPECT_TRUE(read.is_damaged && read.evaluations.size() < logged.size() &&
+                std::equal(read.evaluations.begin(), read.evaluations.end(), logged.begin()));
+  });
+  const Model& model = model_by_name("weber_penn");
+  const auto state_of = [&](const std::string& text) {
+    return branch_rounds_to_json(branch_rounds_from_json(text, model.table(), "branches.json"), "weber_penn");
+  };
+  const std::string state = state_of(read_text_file(run / "branches.json"));
+  for_each_other_bit(run / "branches.json",
+                     [&](const std::string& bytes) { EXPECT_TRUE(state_of(bytes) == state); });
 }
 
 TEST_F(BrokenRun, WithAnotherObjectiveInItsRecordIsRefused) {

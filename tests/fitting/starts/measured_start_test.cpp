@@ -1,11 +1,13 @@
 // Ranges and starts to the measure of a picture.
 #include <gtest/gtest.h>
 
+#include <espalier/fitting/picture/crown_reading.h>
 #include <espalier/fitting/starts/fit_plan.h>
 #include <espalier/fitting/starts/measured_start.h>
 #include <espalier/fitting/task/record_task.h>
 #include <espalier/models/models.h>
 #include <espalier/models/preset.h>
+#include <espalier/weber_penn/tree_crown.h>
 
 #include "support/lsystem_files.h"
 #include "support/toy_model.h"
@@ -121,6 +123,69 @@ TEST(MeasuredStart, AStartTakesTheWidthOfTheCrown) {
     const Bounds box = bounds(plant);
     EXPECT_LT((box.upper.x - box.lower.x) / (box.upper.z - box.lower.z), 1.5 * reading.crown_width);
   }
+}
+
+/// The envelope that the first start of a fit has: of a tree that is 10 m tall.
+CrownEnvelope first_crown(FitRecord record) {
+  const FitTask task = make_task(record);
+  const ParameterValues values = plan_of(record, task).starts.front().values;
+  const auto scale_m = static_cast<float>(values[task.model->table().index_of("g_scale")]);
+  return CrownEnvelope(crown_shape(weber_penn_parameters(values), scale_m));
+}
+
+TEST(MeasuredStart, ACrownThatTheUserWantsBeginsAsThePictures) {
+  FitRecord record = record_of("oc_orange");
+  record.search.fixed = {{"crown_use", 2}, {"crown_rim_left", 0.125}};
+  for (const char* start : {"auto", "quaking_aspen"}) {
+    record.start = start;
+    const FitTask task = make_task(record);
+    const double height_m = target_height_m(record);
+    const CrownShape seen =
+        crown_shape_of(read_crown(task.views[0].target.mask(), task.views[0].reading), height_m);
+    const CrownShape got = first_crown(record).shape();
+    const double slack_m = 1e-4 * height_m;
+    EXPECT_NEAR(got.top_m.z, seen.top_m.z, slack_m);
+    EXPECT_NEAR(got.bottom_m.z, seen.bottom_m.z, slack_m);
+    for (std::size_t side = 0; side < 4; ++side)
+      EXPECT_NEAR(got.radius_m[side], seen.radius_m[side], slack_m);
+    EXPECT_NEAR(got.rim_m[0], seen.rim_m[0], slack_m);
+    EXPECT_NEAR(got.shape_above, seen.shape_above, 1e-4);
+    EXPECT_NEAR(got.shape_below, seen.shape_below, 1e-4);
+    EXPECT_NEAR(got.rim_m[2], std::lerp(seen.bottom_m.z, seen.top_m.z, 0.125f), slack_m);  // the user's
+  }
+}
+
+TEST(MeasuredStart, ACrownThatIsNotSeenOrNotWantedStaysTheStarts) {
+  const auto has_crown_of_table = [](FitRecord record) {
+    const FitTask task = make_task(record);
+    const ParameterTable& table = task.model->table();
+    const ParameterValues values = plan_of(record, task).starts.front().values;
+    return values[table.index_of("crown_radius_left")] ==
+           table.defaults()[table.index_of("crown_radius_left")];
+  };
+  FitRecord record = record_of("oc_orange");
+  record.start = "quaking_aspen";
+  EXPECT_TRUE(has_crown_of_table(record));  // not in use
+  record.search.fixed = {{"crown_use", 2}};
+  EXPECT_FALSE(has_crown_of_table(record));
+  record.kind = KindChoice::any;  // the picture says nothing
+  EXPECT_TRUE(has_crown_of_table(record));
+  record.kind = KindChoice::automatic;
+  record.views.front().view.azimuth_deg = 90;
+  EXPECT_TRUE(has_crown_of_table(record));
+}
+
+TEST(MeasuredStart, AStartWithACrownOfItsOwnKeepsIt) {
+  FitRecord record = record_of("oc_orange");
+  record.start = "bonsai_chokkan";
+  const ParameterTable& table = model_by_name("weber_penn").table();
+  const ParameterValues own = load_preset(record.start).values;
+  ASSERT_NE(own[table.index_of("crown_use")], 0);
+  record.search.fixed = {{"crown_use", 1}};
+  const FitTask task = make_task(record);
+  const ParameterValues values = plan_of(record, task).starts.front().values;
+  for (const char* row : {"crown_radius_left", "crown_top", "crown_shape_above"})
+    EXPECT_EQ(values[table.index_of(row)], own[table.index_of(row)]) << row;
 }
 
 TEST(MeasuredStart, ACrownDownToTheGroundMayBeginThere) {
