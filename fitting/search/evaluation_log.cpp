@@ -66,8 +66,14 @@ LogContent content_of_01(std::string_view records) {
   return content;
 }
 
+/// As a power cut leaves a log that was not brought to the disk yet: as long as it was, of zeros.
+bool is_without_mark(std::string_view bytes) {
+  return bytes.substr(0, kMarkBytes).find_first_not_of('\0') == std::string_view::npos;
+}
+
 LogContent content_of(std::string_view bytes, const std::filesystem::path& path) {
   const std::string_view mark = bytes.substr(0, kMarkBytes);
+  if (is_without_mark(bytes)) return {.is_damaged = bytes.size() > kMarkBytes};
   if (!kMark.starts_with(mark) && mark != kMarkOf01)
     throw_input_error("{}: got another kind of file, expected a log of evaluations", path.string());
   if (mark.size() < kMarkBytes) return {};
@@ -147,7 +153,7 @@ void EvaluationLog::read_logged() {
   LogContent content = content_of(bytes, path_);
   logged_ = std::move(content.evaluations);
   count_ = logged_.size();
-  if (bytes.size() < kMarkBytes) {  // new, or torn inside the mark
+  if (!bytes.starts_with(kMark)) {  // new, torn inside the mark, or lost by a power cut
     ::lseek(file_, 0, SEEK_SET);
     write_all(kMark.data(), kMarkBytes);
   }

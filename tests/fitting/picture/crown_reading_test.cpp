@@ -78,6 +78,31 @@ TEST(CrownReading, OfThePicturesOfLeafyTreesItIsAVolume) {
   }
 }
 
+TEST(CrownReading, AsAVolumeItReachesAsFarOnEachSide) {
+  const CrownReading crown{.top_x = 0.05,
+                           .base = 0.2,
+                           .base_x = -0.02,
+                           .radius_right = 0.3,
+                           .radius_left = 0.5,
+                           .rim_right = 0.6,
+                           .rim_left = 0.4};
+  const auto volume = parse_volume(crown_text(crown, 20));
+  const CrownEnvelope envelope(crown_shape_of(crown, 20));
+  for (const Volume* either :
+       {static_cast<const Volume*>(&envelope), static_cast<const Volume*>(volume.get())}) {
+    EXPECT_TRUE(either->contains({5.8f, 0, 12}));  // the right rim
+    EXPECT_FALSE(either->contains({6.2f, 0, 12}));
+    EXPECT_TRUE(either->contains({-9.8f, 0, 8}));  // the left rim
+    EXPECT_FALSE(either->contains({-10.2f, 0, 8}));
+    EXPECT_TRUE(either->contains({1, 0, 19.8f}));  // the top
+    EXPECT_FALSE(either->contains({1, 0, 20.2f}));
+    EXPECT_TRUE(either->contains({-0.4f, 0, 4.2f}));  // the base
+    EXPECT_FALSE(either->contains({-0.4f, 0, 3.8f}));
+    EXPECT_TRUE(either->contains({0, 7.6f, 10}));  // half way between the sides
+    EXPECT_FALSE(either->contains({0, 8.4f, 10}));
+  }
+}
+
 TEST(CrownReading, WhatIsNoCrownIsRefused) {
   Mask line(20, 20);
   line.set(3, 5);

@@ -101,6 +101,21 @@ RC_GTEST_PROP(EvaluationLog, ARunWithAnyBitFlippedGoesOnFromBeforeItToTheUnbroke
   fs::remove_all(folder);
 }
 
+/// As a file system leaves what was not synced before the power went.
+RC_GTEST_PROP(EvaluationLog, ALogWhoseEndIsZerosGoesOnToTheUnbrokenRun, ()) {
+  const fs::path folder = fresh_folder("zeros"), file = folder / "evaluations.bin";
+  const LoggedRun unbroken = run_logged(folder, 20, 6);
+  const std::string bytes = read_text_file(file);
+  const auto kept = *rc::gen::element<std::size_t>(0, 8, 8 + 24, 8 + 24 * 7);
+  const auto size = *rc::gen::inRange<std::size_t>(kept, bytes.size() + 1);
+  std::ofstream(file, std::ios::binary) << bytes.substr(0, kept) << std::string(size - kept, '\0');
+  const LoggedRun resumed = run_logged(folder, 20, 6);
+  RC_ASSERT(resumed.scores == unbroken.scores);
+  RC_ASSERT(resumed.computed == static_cast<long>(20 - (kept < 8 ? 0 : (kept - 8) / 24)));
+  RC_ASSERT(read_text_file(file) == bytes);
+  fs::remove_all(folder);
+}
+
 TEST(EvaluationLog, RecordsInAnotherOrderAreDamaged) {
   const fs::path folder = fresh_folder("order"), file = folder / "evaluations.bin";
   run_logged(folder, 4, 2);
