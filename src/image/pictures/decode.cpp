@@ -134,13 +134,13 @@ void check_pixels(const DecodedPicture& picture, const fs::path& path) {
 }
 
 Child start_child(const LookedAt& looked, int frame) {
-  picture_codecs();  // loaded once, for all children
   const std::unique_lock alone(picture_codecs_in_use());
   return Child(looked.file.path.string() + ": not readable as a picture", limits_for(looked, frame),
                [&](const SendBytes& send) { send_picture(read_frame(looked.file, frame), send); });
 }
 
 DecodedPicture decoded_apart(const LookedAt& looked, int frame) {
+  picture_codecs();  // loaded once, for all children; libraries that they bring start threads
   if (!forked_children_can_allocate()) return read_frame(looked.file, frame);
   Child child = start_child(looked, frame);
   return receive_picture(child, looked.file.path);
