@@ -27,17 +27,10 @@ std::optional<double> choice_by_name(const ParameterInfo& row, const toml::node&
   return row.first_choice + static_cast<double>(found - row.choices.begin());
 }
 
-/// A number, whole or not; -0 is read as 0.
-std::optional<double> number(const toml::node& node) {
-  if (const auto real = node.value_exact<double>()) return *real + 0.0;
-  if (const auto whole = node.value_exact<std::int64_t>()) return static_cast<double>(*whole);
-  return std::nullopt;
-}
-
 double read_value(const ParameterInfo& row, const toml::node& node, const std::string& source) {
   if (const auto choice = choice_by_name(row, node)) return *choice;
   const std::string where = toml_location(source, node);
-  const auto value = number(node);
+  const auto value = toml_number(node);
   if (!value)
     throw_input_error("{}: key '{}': got {}, expected {}", where, row.full_name(), describe_toml(node),
                       describe_valid_values(row));
@@ -51,7 +44,7 @@ void read_curve(const CurveInfo& curve, const toml::node& node, const std::strin
   const std::string where = toml_location(source, node);
   std::vector<double> numbers;
   const auto take = [&](const toml::node& one) {
-    const auto value = number(one);
+    const auto value = toml_number(one);
     if (!value)
       throw_input_error("{}: key '{}': got {}, expected {}", toml_location(source, one), curve.full_name(),
                         describe_toml(one), describe_valid_values(table.rows[curve.first_row]));

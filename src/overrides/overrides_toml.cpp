@@ -36,7 +36,7 @@ std::vector<std::string> known_keys(bool in_branch, const ParameterTable& table)
 Override read_override(const TomlSection& node, const std::string& key, Quantity quantity) {
   if (node.node(key).is_boolean()) return {quantity, Relation::value, node.flag(key) ? 1.0 : 0.0};
   const SaidInToml said = read_said(node, key);
-  const auto number = said.number->value<double>();
+  const auto number = toml_number(*said.number);
   if (!number)
     throw_input_error("{}: {}: got {}, expected a number", toml_location(node.source, *said.number), key,
                       describe_toml(*said.number));
@@ -48,7 +48,7 @@ AxisPoint read_axis_point(const TomlSection& node, const toml::node& element) {
   std::array<double, 3> point{};
   for (std::size_t i = 0; i < point.size(); ++i) {
     const auto number =
-        numbers && numbers->size() == point.size() ? numbers->get(i)->value<double>() : std::nullopt;
+        numbers && numbers->size() == point.size() ? toml_number(*numbers->get(i)) : std::nullopt;
     if (!number) node.fail("axis", "an array of points [x, y, z]");
     point[i] = *number;
   }

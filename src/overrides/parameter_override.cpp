@@ -63,8 +63,8 @@ double number_of(const toml::node& node, const ParameterInfo& row, const std::st
     const auto found = std::find(row.choices.begin(), row.choices.end(), *text);
     if (found != row.choices.end())
       return row.first_choice + static_cast<double>(found - row.choices.begin());
-  } else if (const auto number = node.value<double>(); number && !node.is_boolean()) {
-    return *number + 0.0;  // never -0
+  } else if (const auto number = toml_number(node)) {
+    return *number;
   }
   throw_input_error("{}: key '{}': got {}, expected {}", toml_location(source, node), key,
                     describe_toml(node), describe_valid_values(row));

@@ -78,6 +78,17 @@ RC_GTEST_PROP(OverridesToml, ReadsBackTheSameBits, ()) {
   RC_ASSERT(same(back.shared.at("a b"), overrides.shared.at("a b")));
 }
 
+/// "-0.0" would be written as -0, a whole number, which has no sign when it is read.
+TEST(OverridesToml, NoNumberIsMinusZero) {
+  const std::string text =
+      "[[branch]]\npath = \"0/1\"\naxis = [[-0.0, 0, 0.5], [1, -0.0, 1], [2, 0, 1]]\nrotation = { offset = "
+      "-0.0 }\n"
+      "crown = { rim = -0.0 }\n";
+  const std::string written = overrides_to_toml(read(text));
+  EXPECT_EQ(written.find("-0"), std::string::npos) << written;
+  EXPECT_EQ(overrides_to_toml(read(written)), written);
+}
+
 TEST(OverridesToml, NodesStandInTheOrderOfTheirPaths) {
   const Overrides overrides =
       read("[[branch]]\npath = \"0/7\"\nlength = 1\n[[branch]]\npath = \"0/3\"\nlength = 1\n");

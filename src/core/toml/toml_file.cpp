@@ -66,6 +66,12 @@ std::string toml_location(const std::string& source, const toml::node& node) {
   return line > 0 ? fmt::format("{}:{}", source, line) : source;
 }
 
+std::optional<double> toml_number(const toml::node& node) {
+  if (!node.is_number()) return std::nullopt;
+  const std::optional<double> number = node.value<double>();
+  return number ? std::optional(*number + 0.0) : std::nullopt;
+}
+
 std::string describe_toml(const toml::node& node) {
   if (const auto number = node.value_exact<double>()) return fmt::format("{}", *number);
   if (const auto number = node.value_exact<std::int64_t>()) return fmt::format("{}", *number);

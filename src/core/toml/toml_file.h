@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,9 @@ toml::table parse_toml(std::string_view text, const std::string& source);
 
 /// "my.toml:12", for messages about this node.
 std::string toml_location(const std::string& source, const toml::node& node);
+
+/// A number, whole or not. -0 is read as 0: it would be written as a whole number, which has no sign.
+std::optional<double> toml_number(const toml::node& node);
 
 /// A value as a message shows it: "'tree'", "2.5", "an array", "a table".
 std::string describe_toml(const toml::node& node);

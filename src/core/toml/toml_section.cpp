@@ -30,7 +30,7 @@ std::string TomlSection::text(std::string_view key) const {
 }
 
 double TomlSection::number(std::string_view key) const {
-  if (const auto value = node(key).value<double>()) return *value;
+  if (const auto value = toml_number(node(key))) return *value;
   fail(key, "a number");
 }
 
