@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -176,6 +177,19 @@ void check_request(const PosteriorRequest& request) {
     throw_field_error("samples", "got {}, expected 1 to {}", request.samples, kMostSimulations);
 }
 
+bool holds_other_things(const fs::path& directory) {
+  constexpr std::array kOwn{"table",     "silhouette", "samples", "intervals",
+                            "summaries", "parameters", "pairs",   "posterior"};
+  std::error_code error;
+  const bool has_begun = fs::exists(directory / kLockName, error);
+  for (const auto& entry : fs::directory_iterator(directory, error)) {
+    const fs::path name = entry.path().filename();
+    const bool is_own = has_begun && std::find(kOwn.begin(), kOwn.end(), name.stem()) != kOwn.end();
+    if (name != kLockName && !is_temporary_name(name) && !is_own) return true;
+  }
+  return false;
+}
+
 PosteriorResult compute_posterior(const PosteriorRequest& request, const Mask& mask,
                                   const fs::path& directory, int threads, const TableProgress& progress) {
   check_request(request);
@@ -188,6 +202,7 @@ PosteriorResult compute_posterior(const PosteriorRequest& request, const Mask& m
   fs::create_directories(directory, error);
   if (error) throw_input_error("{}: cannot be made: {}", directory.string(), error.message());
   const DirectoryLock lock(directory);
+  remove_temporary_files(directory);
   ReferenceTable table = extended_table(request, prior, path, threads, progress);
   PosteriorResult result{.unknowns = {}, .species = {}, .check = {}, .simulations = table.size()};
   if (table.size() < request.simulations) return result;

@@ -37,6 +37,10 @@ struct PosteriorResult {
 /// PlantPrior.
 void check_request(const PosteriorRequest& request);
 
+/// Whether the directory has, beside what a posterior writes, other things: one that was killed holds its
+/// lock, and as much of its files as it came to. False where there is no directory.
+bool holds_other_things(const std::filesystem::path& directory);
+
 /// `mask`: the tree of the picture at any size. Extends the table first, which is kept where `progress` stops
 /// it: then the result is not complete, nothing else is written, and the same call goes on. Where the check
 /// finds that no plant of the prior makes such a picture, the files hold the prior. Throws InputError for

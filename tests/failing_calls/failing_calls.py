@@ -132,7 +132,9 @@ def main():
                  for call in range(options.first + way, calls + 1, options.every)]
         wrong = 0
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-            for case, faults in zip(cases, pool.map(bench.faults, cases)):
+            for tried, (case, faults) in enumerate(zip(cases, pool.map(bench.faults, cases))):
+                if tried % 100 == 0:
+                    print(f"{tried} of {len(cases)} failures", file=sys.stderr, flush=True)
                 for fault in faults:
                     print(f"{case}: {fault}", flush=True)
                 wrong += bool(faults)

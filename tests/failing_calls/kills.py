@@ -60,7 +60,7 @@ KINDS = [
          FITTED),
     Kind("space", ["fit", TARGETS / "tr_peartree.png", *SMALL, "--space", "species:2", "--space-evaluations", "60", "--evaluations", "200",
                    "--branch-rounds", "0"], FITTED),
-    Kind("posterior", ["posterior", TARGETS / "tr_birch.png", "--simulations", "2000", "--samples", "50", "--seed", "5"],
+    Kind("posterior", ["posterior", TARGETS / "tr_birch.png", "--simulations", "1000", "--samples", "50", "--seed", "5"],
          ["intervals.csv", "samples.csv"], resumes=False),
     Kind("experiment", ["experiment", "run", "STUDY"], ["results.csv"], resumes=False),
 ]
@@ -139,6 +139,7 @@ def main():
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
             attempt = options.seed
             while sum(kills.values()) < options.kills:
+                print(f"{sum(kills.values())} of {options.kills} kills", file=sys.stderr, flush=True)
                 round_of = [(kind, attempt + turn) for turn in range(options.jobs) for kind in kinds]
                 attempt += options.jobs
                 for (kind, seed), (count, faults) in zip(round_of, pool.map(lambda one: killer.broken(*one), round_of)):

@@ -31,7 +31,8 @@ struct PosteriorOptions {
   bool quiet = false, json = false;
 };
 
-/// runs/fir-posterior, or the directory that was named, which is new, empty or of a posterior.
+/// runs/fir-posterior, or the directory that was named, which is new, empty or of a posterior, which may have
+/// been killed.
 fs::path directory_of(const PosteriorOptions& options) {
   if (options.out.empty())
     return fs::path("runs") / (fs::path(options.request.picture).stem().string() + "-posterior");
@@ -40,7 +41,7 @@ fs::path directory_of(const PosteriorOptions& options) {
   if (!fs::exists(out, ignored) || fs::exists(out / "table.bin", ignored) ||
       fs::exists(out / "posterior.json", ignored))
     return out;
-  if (!fs::is_directory(out, ignored) || !fs::is_empty(out, ignored))
+  if (!fs::is_directory(out, ignored) || holds_other_things(out))
     throw_input_error(
         "--output: got '{}', which holds other things, expected a new directory or one of a posterior",
         options.out);

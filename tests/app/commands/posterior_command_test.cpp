@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "support/posterior_table.h"
 #include "support/run_espalier.h"
@@ -22,6 +23,9 @@ std::string fresh_table_option() {
 
 TEST(PosteriorCommand, PrintsQuantitiesWithIntervals) {
   const std::string out = (fresh_folder("posterior_command") / "run").string();
+  fs::create_directory(out);  // as a process that was killed in its first moments leaves it
+  std::ofstream(fs::path(out) / "lock") << "";
+  std::ofstream(fs::path(out) / ".espalier-0011223344556677.tmp") << "half";
   const std::string picture = std::string(ESPALIER_SOURCE_DIR) + "/targets/fir.png";
   const ProgramRun good = run_espalier("posterior '" + picture + "' --simulations 2000 --height 10 --out " +
                                        out + fresh_table_option());
@@ -30,6 +34,7 @@ TEST(PosteriorCommand, PrintsQuantitiesWithIntervals) {
        {"crown_volume", "leaf_area", "wood_volume", "trunk_radius", "near species: ", "parameters: "})
     EXPECT_THAT(good.out, HasSubstr(name));
   EXPECT_TRUE(fs::exists(out + "/parameters.svg"));
+  EXPECT_FALSE(fs::exists(out + "/.espalier-0011223344556677.tmp"));
   const std::string another = std::string(ESPALIER_SOURCE_DIR) + "/targets/oc_palm.png";
   const ProgramRun lost =
       run_espalier("posterior '" + another + "' --simulations 2000 --height 10 --out " + out);

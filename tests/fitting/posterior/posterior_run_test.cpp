@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include <espalier/core/field_error.h>
 #include <espalier/core/files.h>
@@ -212,6 +213,22 @@ TEST(PosteriorRun, RefusesTooFewSimulationsAndHeightsThatAreNone) {
   request = {};
   request.samples = 0;
   EXPECT_EQ(field(request), "samples");
+}
+
+TEST(PosteriorRun, OtherThingsAreThoseThatNoPosteriorLeavesWhereverItIsKilled) {
+  const fs::path folder = fresh_folder("posterior_places");
+  EXPECT_FALSE(holds_other_things(folder / "none"));
+  EXPECT_FALSE(holds_other_things(folder));
+  std::ofstream(folder / "samples.csv") << "mine";
+  EXPECT_TRUE(holds_other_things(folder)) << "without a lock nobody began here";
+  std::ofstream(folder / "lock") << "";
+  for (const char* name :
+       {".espalier-0011223344556677.tmp", "table.bin", "silhouette.png", "intervals.csv", "summaries.csv",
+        "parameters.svg", "parameters.png", "pairs.svg", "pairs.png", "posterior.json"})
+    std::ofstream(folder / name) << "half";
+  EXPECT_FALSE(holds_other_things(folder));
+  std::ofstream(folder / "notes.txt") << "mine";
+  EXPECT_TRUE(holds_other_things(folder));
 }
 
 TEST(PosteriorRun, IsOneProcesssAtATime) {
