@@ -60,7 +60,7 @@ KINDS = [
          FITTED),
     Kind("space", ["fit", TARGETS / "tr_peartree.png", *SMALL, "--space", "species:2", "--space-evaluations", "60", "--evaluations", "200",
                    "--branch-rounds", "0"], FITTED),
-    Kind("posterior", ["posterior", TARGETS / "tr_birch.png", "--simulations", "1000", "--samples", "50", "--seed", "5"],
+    Kind("posterior", ["posterior", TARGETS / "tr_birch.png", "--simulations", "2000", "--samples", "50", "--seed", "5"],
          ["intervals.csv", "samples.csv"], resumes=False),
     Kind("experiment", ["experiment", "run", "STUDY"], ["results.csv"], resumes=False),
 ]
