@@ -180,14 +180,11 @@ void check_request(const PosteriorRequest& request) {
 bool holds_other_things(const fs::path& directory) {
   constexpr std::array kOwn{"table",     "silhouette", "samples", "intervals",
                             "summaries", "parameters", "pairs",   "posterior"};
-  std::error_code error;
-  const bool has_begun = fs::exists(directory / kLockName, error);
-  for (const auto& entry : fs::directory_iterator(directory, error)) {
-    const fs::path name = entry.path().filename();
-    const bool is_own = has_begun && std::find(kOwn.begin(), kOwn.end(), name.stem()) != kOwn.end();
-    if (name != kLockName && !is_temporary_name(name) && !is_own) return true;
-  }
-  return false;
+  std::error_code ignored;
+  return holds_other_files(
+      directory,
+      [&](const fs::path& name) { return std::find(kOwn.begin(), kOwn.end(), name.stem()) != kOwn.end(); },
+      ignored);
 }
 
 PosteriorResult compute_posterior(const PosteriorRequest& request, const Mask& mask,

@@ -88,20 +88,10 @@ std::string archived_to_toml(const RunState& state, std::size_t index) {
   return preset_to_toml(preset, state.task.model->table());
 }
 
-/// Whether a run writes it before its record.
+/// Whether a run writes it before its record, so that one that was killed may have left it alone.
 bool is_of_a_beginning(const fs::path& name) {
   return name == "model" || name == "presets" || name.stem() == "picture" ||
          name.string().starts_with("picture_");
-}
-
-/// Of other things than a run that was killed before its record was there, which has the lock first of all.
-bool holds_files(const fs::path& directory, std::error_code& error) {
-  const bool has_begun = fs::exists(directory / kLockName, error);
-  for (const auto& entry : fs::directory_iterator(directory, error)) {
-    const fs::path name = entry.path().filename();
-    if (name != kLockName && !is_temporary_name(name) && !(has_begun && is_of_a_beginning(name))) return true;
-  }
-  return false;
 }
 
 /// The outlines that trained trees are grown into.
@@ -214,7 +204,7 @@ void check_new_directory(const fs::path& directory) {
   if (status.type() != fs::file_type::directory)
     throw_input_error("{}: got {}, expected a directory to make", directory.string(),
                       error ? error.message() : "a file");
-  if (holds_files(directory, error))
+  if (holds_other_files(directory, is_of_a_beginning, error))
     throw_input_error("{}: got a directory with files in it, expected a new one, or to resume the run in it",
                       directory.string());
   if (error)

@@ -113,9 +113,11 @@ class Planner {
       return presets_as_written(table_, start_);
     std::vector<StartPoint> starts = make_start_points(*task_.model, start_names(), plan_.choice,
                                                        record_.growth, height_m_, task_.plant_seeds.front());
+    const bool any_crown = std::ranges::any_of(starts, [&](const auto& start) { return gets_crown(start); });
+    const CrownShape seen = any_crown ? crown_of_picture() : CrownShape{};
     for (StartPoint& start : starts) {
       if (is_read() && starts_are_ours()) measure(start.values);
-      if (gets_crown(start)) task_.model->set_crown(crown_of_picture(), start.values);
+      if (gets_crown(start)) task_.model->set_crown(seen, start.values);
       keep_in_ranges(table_, plan_.choice, start.values);
       if (trunk_) fix_trunk(start.values);
       apply_fixed(table_, plan_.choice, start.values);

@@ -17,7 +17,7 @@ struct StartPoint {
   std::string name;  ///< "quaking_aspen", "quaking_aspen without leaves"
   ParameterValues values;
   Overrides overrides = {};    ///< of a preset as it is written
-  bool has_own_crown = false;  ///< an envelope that does something before any value is fixed
+  bool has_own_crown = false;  ///< of make_start_points(): one in use before values are fixed
 };
 
 /// Makes a candidate of any plant: its size does not vary, counts may be relaxed, it is thinned until this

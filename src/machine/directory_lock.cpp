@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include <espalier/core/error.h>
+#include <espalier/core/files.h>
 #include <espalier/machine/directory_lock.h>
 
 namespace espalier {
@@ -23,5 +24,16 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory) {
 }
 
 DirectoryLock::~DirectoryLock() { close(file_); }
+
+bool holds_other_files(const std::filesystem::path& directory,
+                       const std::function<bool(const std::filesystem::path& name)>& is_own,
+                       std::error_code& error) {
+  const bool has_begun = std::filesystem::exists(directory / kLockName, error);
+  for (const auto& entry : std::filesystem::directory_iterator(directory, error)) {
+    const std::filesystem::path name = entry.path().filename();
+    if (name != kLockName && !is_temporary_name(name) && !(has_begun && is_own(name))) return true;
+  }
+  return false;
+}
 
 }  // namespace espalier

@@ -1,6 +1,8 @@
 // A directory that one process at a time works in.
 #pragma once
 #include <filesystem>
+#include <functional>
+#include <system_error>
 
 namespace espalier {
 
@@ -21,5 +23,11 @@ class DirectoryLock {
 
 /// The name of that file.
 inline constexpr const char* kLockName = "lock";
+
+/// Whether the directory has files that are none of: its lock, what killed programs left, and, where there is
+/// a lock, so that one began here, those whose names are its own. What cannot be read is told by `error`.
+bool holds_other_files(const std::filesystem::path& directory,
+                       const std::function<bool(const std::filesystem::path& name)>& is_own,
+                       std::error_code& error);
 
 }  // namespace espalier
